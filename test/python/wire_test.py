@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Connections over TCPROS against a node that sends halves of messages, or nothing. 2 s."""
+"""Connections over TCPROS against a node that sends halves of messages, or nothing. 4 s."""
 import contextlib
 import io
 import socket

@@ -26,13 +26,16 @@ constexpr int kMostLanes = 16;
 
 template <class T>
 const mpm_test::WideOps<T>& ops(Isa isa) {
-#if defined(MPM_X86_KERNELS)
-  if constexpr (sizeof(T) == 8) {
-    if (isa == Isa::avx512) return mpm_avx512::wide_ops_double();
-    if (isa == Isa::avx2) return mpm_avx2::wide_ops_double();
-  } else {
-    if (isa == Isa::avx512) return mpm_avx512::wide_ops_single();
-    if (isa == Isa::avx2) return mpm_avx2::wide_ops_single();
+#if defined(MPM_AVX512_KERNELS)
+  if (isa == Isa::avx512) {
+    if constexpr (sizeof(T) == 8) return mpm_avx512::wide_ops_double();
+    else return mpm_avx512::wide_ops_single();
+  }
+#endif
+#if defined(MPM_AVX2_KERNELS)
+  if (isa == Isa::avx2) {
+    if constexpr (sizeof(T) == 8) return mpm_avx2::wide_ops_double();
+    else return mpm_avx2::wide_ops_single();
   }
 #endif
   (void)isa;

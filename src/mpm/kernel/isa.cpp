@@ -29,15 +29,11 @@ std::optional<Isa> find_isa(const std::string& name) {
 }
 
 bool isa_available(Isa isa) {
-#if defined(MPM_X86_KERNELS)
-  switch (isa) {
-    case Isa::avx2:
-      return __builtin_cpu_supports("x86-64-v3");
-    case Isa::avx512:
-      return __builtin_cpu_supports("x86-64-v4");
-    case Isa::plain:
-      break;
-  }
+#if defined(MPM_AVX2_KERNELS)
+  if (isa == Isa::avx2) return __builtin_cpu_supports("x86-64-v3");
+#endif
+#if defined(MPM_AVX512_KERNELS)
+  if (isa == Isa::avx512) return __builtin_cpu_supports("x86-64-v4");
 #endif
   return isa == Isa::plain;
 }
@@ -58,7 +54,8 @@ Isa choose_isa(const std::string& name) {
   for (const Isa other : kAll) {
     if (isa_available(other)) there += (there.empty() ? "" : ", ") + std::string(isa_name(other));
   }
-  throw IsaError(fmt::format(isa ? "this machine does not have the instruction set '{}'; it has {}"
+  throw IsaError(fmt::format(isa ? "this machine, or this build (-DMPM_KERNELS=all has them all), does not have the "
+                                   "instruction set '{}'; it has {}"
                                  : "there is no instruction set '{}'; this machine has {}",
                              name, there));
 }

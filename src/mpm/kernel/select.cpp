@@ -31,13 +31,18 @@ MPM_DECLARE_KERNELS(mpm_avx512)
 namespace mpm {
 namespace {
 
-#if defined(MPM_X86_KERNELS)
-#define MPM_KERNELS(name) \
-  { mpm_plain::name, mpm_avx2::name, mpm_avx512::name }
+#if defined(MPM_AVX2_KERNELS)
+#define MPM_AVX2(name) mpm_avx2::name
 #else
-#define MPM_KERNELS(name) \
-  { mpm_plain::name, nullptr, nullptr }
+#define MPM_AVX2(name) nullptr
 #endif
+#if defined(MPM_AVX512_KERNELS)
+#define MPM_AVX512(name) mpm_avx512::name
+#else
+#define MPM_AVX512(name) nullptr
+#endif
+#define MPM_KERNELS(name) \
+  { mpm_plain::name, MPM_AVX2(name), MPM_AVX512(name) }
 /// Of a shape function, by instruction set: its passes and, of a product along the axes, what makes its weights.
 struct ShapeTables {
   const mpm_kernel::PassFamily& (*passes[3])();

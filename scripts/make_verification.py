@@ -150,7 +150,7 @@ def main():
     if len(sys.argv) != 3:
         raise SystemExit("usage: make_verification.py PAGES DOC")
     pages_folder, doc = map(pathlib.Path, sys.argv[1:])
-    pages = [json.loads(file.read_text()) for file in sorted(pages_folder.glob("*.json"))]
+    pages = [json.loads(file.read_text()) for file in sorted(pages_folder.glob("*/*.json"), key=lambda file: file.name)]
     if not pages:
         raise SystemExit(f"make_verification: no page in {pages_folder}; run the tests with MPM_PAGES set to it")
     pictures = doc / "images" / "verification"

@@ -60,7 +60,7 @@ def sections(folder, pictures, link=None):
     default images/<its name>."""
     folder, pictures = pathlib.Path(folder), pathlib.Path(pictures)
     link = link or f"images/{pictures.name}"
-    pages = [json.loads(file.read_text()) for file in sorted(folder.glob("*.json"))]
+    pages = [json.loads(file.read_text()) for file in sorted(folder.glob("*/*.json"), key=lambda file: file.name)]
     if not pages:
         raise SystemExit(f"stability_pages: no page in {folder}; run stability_tests with MPM_PAGES set to it")
     unknown = sorted({page["chapter"] for page in pages} - set(CHAPTERS))

@@ -269,5 +269,3 @@ TEST(Alive, ABodyIsNotPushedAcrossTheDomain) {
 
 }  // namespace alive_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "alive_node_test"); }

@@ -173,5 +173,3 @@ TEST(CheckpointNode, AFailedRunLeavesItsState) {
 
 }  // namespace checkpoint_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "checkpoint_node_test"); }

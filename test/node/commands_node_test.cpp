@@ -126,5 +126,3 @@ TEST(Commands, AWrenchPushesAFreeBodyUntilTheNext) {
 
 }  // namespace commands_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "commands_node_test"); }

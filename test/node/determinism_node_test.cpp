@@ -17,8 +17,9 @@ namespace mpm_ros::test {
 namespace determinism_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
-constexpr const char* kSender = "--sender";  // makes this program a node that sends one command: topic, vz, stamp [ns]
+constexpr const char* kSender = "--sender";  // see node_main.cpp
 
+/// A node that sends one command; words: topic, vz, stamp [ns].
 int send(int argc, char** argv, char** words) {
   ros::init(argc, argv, "sender");
   ros::NodeHandle node;
@@ -72,7 +73,7 @@ std::string driven_run(const std::string& bag, int threads, bool load, bool b_fi
   std::vector<std::unique_ptr<ProgramProcess>> senders;
   for (const char* name : {b_first ? "b" : "a", b_first ? "a" : "b"}) {
     senders.push_back(std::make_unique<ProgramProcess>(
-        "determinism_node_test",
+        "node_tests",
         std::vector<std::string>{kSender, simulator.name("bodies/plate/cmd_vel_stamped"),
                                  *name == 'a' ? "-0.02" : "-0.05", "60000000", std::string("__name:=") + name},
         "/senders"));
@@ -260,12 +261,3 @@ TEST(Determinism, AKilledControllerStopsTheLockstepsTime) {
 
 }  // namespace determinism_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) {
-  // Arguments of ROS may come first. A sender that was not recognised here would start the tests again, endlessly.
-  for (int i = 1; i + 3 < argc; ++i) {
-    if (std::strcmp(argv[i], mpm_ros::test::determinism_node_test::kSender) == 0)
-      return mpm_ros::test::determinism_node_test::send(argc, argv, argv + i + 1);
-  }
-  return mpm_ros::test::run_node_tests(argc, argv, "determinism_node_test");
-}

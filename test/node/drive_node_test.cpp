@@ -180,5 +180,3 @@ TEST_F(Drive, AJumpIsTold) {
 
 }  // namespace drive_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "drive_node_test"); }

@@ -291,5 +291,3 @@ TEST(Endings, TooManyThreadsAreRefused) { expect_bad_input({kPress, "threads:=99
 
 }  // namespace endings_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "endings_node_test"); }

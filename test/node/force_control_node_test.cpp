@@ -45,5 +45,3 @@ TEST(ForceControl, AParameterThatMakesNoSenseIsNamed) {
 
 }  // namespace force_control_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "force_control_node_test"); }

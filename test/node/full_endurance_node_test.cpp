@@ -61,5 +61,3 @@ TEST(FullEndurance, TwoMillionStepsInLockstep) {
 
 }  // namespace full_endurance_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "full_endurance_node_test"); }

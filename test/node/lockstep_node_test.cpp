@@ -361,5 +361,3 @@ TEST(Lockstep, TheEndOfTheSceneEndsTheSteps) {
 
 }  // namespace lockstep_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "lockstep_node_test"); }

@@ -20,9 +20,9 @@ namespace pacing_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 const std::string kLong = "set:=[time.end=1000]";  // sync points every 10 ms
-constexpr const char* kWaiter =
-    "--wait-for-time";  // makes this program a node that ends when ros::Time::now() is valid
+constexpr const char* kWaiter = "--wait-for-time";  // see node_main.cpp
 
+/// A node that ends when ros::Time::now() is valid.
 int wait_for_time(int argc, char** argv) {
   ros::init(argc, argv, "waiter");
   const ros::NodeHandle node;
@@ -313,7 +313,7 @@ TEST(Pacing, StartingPausedHangsNobody) {
   SimulatorProcess simulator({kPress, kLong, "threads:=1", "start_paused:=true"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   // A node that starts later receives the time.
-  ProgramProcess waiter("pacing_node_test", {kWaiter});
+  ProgramProcess waiter("node_tests", {kWaiter});
   EXPECT_EQ(waiter.wait(20.0), 0) << waiter.log();
   // Services answer.
   EXPECT_TRUE(simulator.step(1).success);
@@ -325,7 +325,7 @@ TEST(Pacing, StartingPausedHangsNobody) {
   EXPECT_TRUE(eventually([&] { return states.heard().back().time > 0.05; }));
   // The same in the middle of a run.
   pause(simulator, true);
-  ProgramProcess later("pacing_node_test", {kWaiter});
+  ProgramProcess later("node_tests", {kWaiter});
   EXPECT_EQ(later.wait(20.0), 0) << later.log();
 }
 
@@ -386,9 +386,3 @@ TEST(Pacing, TheWallsClockCannotBeSetBack) {
 
 }  // namespace pacing_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) {
-  if (argc > 1 && std::strcmp(argv[1], mpm_ros::test::pacing_node_test::kWaiter) == 0)
-    return mpm_ros::test::pacing_node_test::wait_for_time(argc, argv);
-  return mpm_ros::test::run_node_tests(argc, argv, "pacing_node_test");
-}

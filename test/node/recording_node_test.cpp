@@ -150,5 +150,3 @@ TEST(Recording, AutoNamesABagThatIsNotThere) {
 
 }  // namespace recording_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "recording_node_test"); }

@@ -1,4 +1,4 @@
-// Shipped scenes in the node, as a user starts them, recorded. Argument: small (those of a second together) or all.
+// Shipped scenes in the node, as a user starts them, recorded. Those of a second together, with MPM_FULL all.
 #include <set>
 
 #include "mpm/scene/scene.hpp"
@@ -7,13 +7,12 @@
 namespace mpm_ros::test {
 namespace shipped_node_test {
 
-bool all = false;
-
 const std::set<std::string> kSmall{"column_collapse",     "compressed_block",   "elastic_block",
                                    "end_loaded_cylinder", "falling_block",      "foam_probe",
                                    "sliding_block",       "radial_compression", "wheel_in_sand"};
 
 TEST(Shipped, ScenesRunInTheNode) {
+  const bool all = std::getenv("MPM_FULL") != nullptr;
   for (const auto& [name, line] : mpm::shipped_scenes()) {
     if (!all && kSmall.count(name) == 0) continue;
     SCOPED_TRACE(name);
@@ -34,8 +33,3 @@ TEST(Shipped, ScenesRunInTheNode) {
 
 }  // namespace shipped_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) {
-  mpm_ros::test::shipped_node_test::all = argc > 1 && std::string(argv[1]) == "all";
-  return mpm_ros::test::run_node_tests(argc, argv, "shipped_node_test");
-}

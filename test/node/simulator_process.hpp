@@ -238,19 +238,4 @@ inline mpm_ros::SolverState last_state_in(const std::string& path) {
 }
 inline std::string hash_in(const std::string& path) { return last_state_in(path).state_hash; }
 
-/// main() of a node test: runs the tests as the ROS node `name`.
-inline int run_node_tests(int argc, char** argv, const std::string& name) {
-  if (getenv(kChild) != nullptr) return 1;
-  setenv(kChild, "1", 1);
-  testing::InitGoogleTest(&argc, argv);
-  setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
-  ros::init(argc, argv, name);
-  ros::start();
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  const int result = RUN_ALL_TESTS();
-  ros::shutdown();
-  return result;
-}
-
 }  // namespace mpm_ros::test

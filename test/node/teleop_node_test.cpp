@@ -145,5 +145,3 @@ TEST_F(Keyboard, ABodyThatIsNotThereIsRefusedWithTheNearest) {
 
 }  // namespace teleop_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "teleop_node_test"); }

@@ -90,5 +90,3 @@ TEST_F(Terrain, AMapThatIsNoneEndsTheNodeAndASignalEndsItsWait) {
 
 }  // namespace terrain_node_test
 }  // namespace mpm_ros::test
-
-int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "terrain_node_test"); }

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "long_tests.hpp"
+
 namespace verification {
 namespace {
 
@@ -79,17 +81,20 @@ Page::Page(const std::string& chapter, std::string name, const std::string& titl
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   const std::string suite = test->test_suite_name();
   json["test"] = suite + "." + test->name();
-  if (suite.rfind("Full", 0) == 0) name_ = "full_" + name_;  // it stays when only the short tests run again
+  if (suite.rfind("Full", 0) == 0) name_ = "full_" + name_;
   json["name"] = name_;
+  long_ = long_test(suite, test->name());
 }
 
 Page::~Page() {
   const char* folder = std::getenv("MPM_PAGES");
   if (folder == nullptr) return;
-  std::filesystem::create_directories(folder);
+  // Those of long tests stay when only the short ones run again.
+  const std::filesystem::path pages = std::filesystem::path(folder) / (long_ ? "long" : "short");
+  std::filesystem::create_directories(pages);
   (*json_)["figure"] = figure_.json();
   (*json_)["passed"] = !testing::Test::HasFailure();
-  std::ofstream(std::filesystem::path(folder) / (name_ + ".json")) << json_->dump(1) << '\n';
+  std::ofstream(pages / (name_ + ".json")) << json_->dump(1) << '\n';
 }
 
 void Page::near(const std::string& quantity, double reached, double exact, double relative, const std::string& unit) {

@@ -1,0 +1,8 @@
+// Which cases are long: `scripts/test --full` alone runs them.
+#pragma once
+
+#include <string>
+
+/// Whether a case belongs to the long ones: its suite's name, after the prefix of an instantiation, begins with "Full", or a
+/// row of test/full.md names it as `Suite.*` or `Suite.Case`.
+bool long_test(const std::string& suite, const std::string& name);

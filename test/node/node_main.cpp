@@ -1,5 +1,5 @@
-// The program of all node tests, a ROS node itself. Which file's cases run, --file=NAME_node says (test/main/choose_tests.hpp).
-// Two other words make it a node that a test needs beside it.
+// The program of all node tests, a ROS node itself. Which file's cases run, --file=NAME_node says
+// (test/main/choose_tests.hpp). Two other words make it a node that a test needs beside it.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 

@@ -19,7 +19,7 @@ namespace mpm_ros::test {
 namespace pacing_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
-const std::string kLong = "set:=[time.end=1000]";  // sync points every 10 ms
+const std::string kLong = "set:=[time.end=1000]";   // sync points every 10 ms
 constexpr const char* kWaiter = "--wait-for-time";  // see node_main.cpp
 
 /// A node that ends when ros::Time::now() is valid.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "mpm/ranks/hilbert.hpp"
+#include "rank_counts.hpp"
 #include "ranks_promises.hpp"
 #include "thread_communicator.hpp"
 
@@ -16,7 +17,7 @@ namespace ranks_test {
 class ThreadRanks : public testing::TestWithParam<RanksPromise> {};
 
 TEST_P(ThreadRanks, KeepWhatTheyPromise) {
-  for (const int count : {1, 2, 3, 5, 8}) {
+  for (const int count : test::rank_counts({1, 2, 3, 5, 8}, 3)) {
     SCOPED_TRACE(count);
     run_ranks(count, GetParam().check);
   }

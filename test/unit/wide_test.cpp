@@ -28,14 +28,18 @@ template <class T>
 const mpm_test::WideOps<T>& ops(Isa isa) {
 #if defined(MPM_AVX512_KERNELS)
   if (isa == Isa::avx512) {
-    if constexpr (sizeof(T) == 8) return mpm_avx512::wide_ops_double();
-    else return mpm_avx512::wide_ops_single();
+    if constexpr (sizeof(T) == 8)
+      return mpm_avx512::wide_ops_double();
+    else
+      return mpm_avx512::wide_ops_single();
   }
 #endif
 #if defined(MPM_AVX2_KERNELS)
   if (isa == Isa::avx2) {
-    if constexpr (sizeof(T) == 8) return mpm_avx2::wide_ops_double();
-    else return mpm_avx2::wide_ops_single();
+    if constexpr (sizeof(T) == 8)
+      return mpm_avx2::wide_ops_double();
+    else
+      return mpm_avx2::wide_ops_single();
   }
 #endif
   (void)isa;

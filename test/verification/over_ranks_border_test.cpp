@@ -7,6 +7,7 @@
 
 #include "mpm/simulation/rank_failure.hpp"
 #include "over_ranks_run.hpp"
+#include "rank_counts.hpp"
 
 namespace verification {
 namespace over_ranks {
@@ -46,7 +47,7 @@ TEST(OverRanksBorder, AToolFeelsNoSeam) {
   const std::vector<mpm::Vec3> one = history_over(1, pressing);
   ASSERT_GT(one.size(), 300U);
   ASSERT_GT(pressing, 0.0);
-  for (const int count : {2, 8}) {
+  for (const int count : mpm::test::rank_counts({2, 8}, 2)) {
     SCOPED_TRACE(count);
     double ignored = 0.0;
     const std::vector<mpm::Vec3> over = history_over(count, ignored);

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "over_ranks_checkpoint.hpp"
+#include "rank_counts.hpp"
 
 namespace verification {
 namespace over_ranks_more_test {
@@ -65,7 +66,7 @@ class OverRanksPart : public testing::TestWithParam<Part> {
 TEST_P(OverRanksPart, IsAsOnOneProcess) {
   const Outcome alone = run_alone(GetParam().run);
   for (const auto& [name, least] : GetParam().passes) EXPECT_GT(number_of(alone, name), least) << name;
-  for (const int count : {2, 3, 8}) {
+  for (const int count : mpm::test::rank_counts({2, 3, 8}, 3)) {
     SCOPED_TRACE(count);
     expect_alike(run_over(GetParam().run, count), alone);
   }
@@ -75,7 +76,7 @@ TEST_P(OverRanksPart, GoesOnFromACheckpoint) {
   const Outcome whole = write(3), resumed = go_on(3);
   EXPECT_EQ(resumed.state_hash, whole.state_hash);
   EXPECT_EQ(resumed.memory_hash, whole.memory_hash);
-  for (const int count : {1, 2, 5}) {
+  for (const int count : mpm::test::rank_counts({1, 2, 5}, 2)) {
     SCOPED_TRACE(count);
     expect_alike(go_on(count), whole);
   }

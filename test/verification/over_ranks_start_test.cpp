@@ -10,6 +10,7 @@
 #include "mpm/ranks/lists.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "rank_counts.hpp"
 #include "scene_run.hpp"
 #include "thread_communicator.hpp"
 
@@ -92,7 +93,7 @@ class OverRanksStart : public testing::TestWithParam<Start> {};
 
 TEST_P(OverRanksStart, HasItsOwnParticlesOfThoseOfOneProcess) {
   const mpm::SimulationDefinition whole = mpm::build(scene_of(GetParam()));
-  for (const int count : {1, 2, 5}) {
+  for (const int count : mpm::test::rank_counts({1, 2, 5}, 2)) {
     SCOPED_TRACE(count);
     mpm::run_ranks(count, [&](mpm::Communicator& ranks) {
       const mpm::SimulationDefinition own = mpm::build(scene_of(GetParam()), &ranks);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "over_ranks_checkpoint.hpp"
+#include "rank_counts.hpp"
 
 namespace verification {
 namespace over_ranks {
@@ -19,7 +20,7 @@ TEST_P(OverRanks, MovesAsOnOneProcess) {
   const auto presses = [](const auto& report) { return report.pressing > 0.0; };
   EXPECT_TRUE(alone.contacts.empty() || std::any_of(alone.contacts.begin(), alone.contacts.end(), presses));
   EXPECT_TRUE(std::all_of(alone.pairs.begin(), alone.pairs.end(), presses));
-  for (const int count : {1, 2, 3, 8}) {
+  for (const int count : mpm::test::rank_counts({1, 2, 3, 8}, 3)) {
     SCOPED_TRACE(count);
     const Outcome over = run_over(GetParam(), count);
     expect_equal(over, alone, 1e-10);
@@ -78,7 +79,7 @@ TEST_F(OverRanksCheckpoint, GoesOnToTheBitOnAsManyRanks) {
 
 TEST_F(OverRanksCheckpoint, IsReadByAnyNumberOfRanks) {
   const Outcome whole = write(3);
-  for (const int count : {1, 2, 5}) {
+  for (const int count : mpm::test::rank_counts({1, 2, 5}, 2)) {
     SCOPED_TRACE(count);
     expect_equal(go_on(count), whole, 1e-10);
   }

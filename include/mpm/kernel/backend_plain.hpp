@@ -18,23 +18,23 @@ struct Backend {
   using Mask = Integers;
 
   static Vector set(T value) {
-    Vector v;
+    Vector v{};
     for (int l = 0; l < kLanes; ++l) v[l] = value;
     return v;
   }
   static Vector load(const T* from) {
-    Vector v;
+    Vector v{};
     __builtin_memcpy(&v, from, kBytes);
     return v;
   }
   static void store(T* to, Vector v) { __builtin_memcpy(to, &v, kBytes); }
   static Mask first(int count) {
-    Mask m;
+    Mask m{};
     for (int l = 0; l < kLanes; ++l) m[l] = l < count ? ~Bits(0) : Bits(0);
     return m;
   }
   static Vector load_first(const T* from, int count) {
-    Vector v;
+    Vector v{};
     for (int l = 0; l < kLanes; ++l) v[l] = l < count ? from[l] : T(0);
     return v;
   }
@@ -61,7 +61,7 @@ struct Backend {
   /// Lane l of the result is lane index[l] of a; only the bits of an index that number the lanes count. No kernel does
   /// this where a row of nodes does not fit into a register.
   static Vector permute(Vector a, Integers index) {
-    Vector v;
+    Vector v{};
     for (int l = 0; l < kLanes; ++l) v[l] = a[index[l] % kLanes];
     return v;
   }
@@ -73,7 +73,7 @@ struct Backend {
   static Vector min(Vector a, Vector b) { return select(less(a, b), a, b); }
   /// Positions of the particles, in double precision, less `origin`, times `scale`, less `shift`.
   static Vector place(const double* x, int count, double origin, double scale, double shift) {
-    Vector v;
+    Vector v{};
     for (int l = 0; l < kLanes; ++l) v[l] = l < count ? static_cast<T>((x[l] - origin) * scale - shift) : T(0);
     return v;
   }

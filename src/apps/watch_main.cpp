@@ -20,10 +20,10 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/message/particle_colours.hpp"
 #include "mpm_ros/message/run_namespaces.hpp"
@@ -169,13 +169,12 @@ First first_particles(const std::string& name_space) {
 
 /// Writes a configuration with the view put in. Returns the file's path.
 std::string write_fitted(const std::string& path, const mpm_ros::View& view, const std::string& name_space) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error(path + " cannot be read");
+  std::string text;
+  if (const std::string refused = mpm::read_input(path, text); !refused.empty())
+    throw std::runtime_error(path + ": " + refused);
   const std::string fitted_file = fitted_path();
   std::ofstream out(fitted_file);
-  out << mpm_ros::with_view(text.str(), view, name_space == "/" ? name_space : name_space + "/");
+  out << mpm_ros::with_view(text, view, name_space == "/" ? name_space : name_space + "/");
   if (!out.flush()) throw std::runtime_error(fitted_file + " cannot be written");
   return fitted_file;
 }

@@ -1,5 +1,5 @@
 // The process ends, with the node's exit code, while something waits for ever; not while a record is open. Each ends a
-// process of its own. Cost: 3 s of waiting.
+// process of its own. Cost: 4 s of waiting.
 #include "mpm_ros/node/exit_watchdog.hpp"
 
 #include <gtest/gtest.h>
@@ -54,6 +54,18 @@ TEST(ExitWatchdogDeathTest, AStopDoesNotCutOffARecord) {
         hang(milliseconds(1500));
       },
       ExitedWithCode(99), "");
+}
+
+// A library that reads a large file asks nobody.
+TEST(ExitWatchdogDeathTest, AStopWhileASceneIsRead) {
+  EXPECT_EXIT(
+      {
+        catch_stop_signals();
+        const NothingToLose reading;
+        std::raise(SIGTERM);
+        hang(milliseconds(10'000));
+      },
+      ExitedWithCode(0), "stopped while the scene was read; nothing was recorded");
 }
 
 }  // namespace exit_watchdog_test

@@ -62,7 +62,7 @@ class ReportBadInput : public ::testing::Test {
 
 TEST_F(ReportBadInput, NoFile) { EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "no such file")); }
 
-TEST_F(ReportBadInput, AFolder) { EXPECT_TRUE(contains(error_of(folder_.path()), "not a file; give a bag")); }
+TEST_F(ReportBadInput, AFolder) { EXPECT_TRUE(contains(error_of(folder_.path()), "it is a folder; name a file")); }
 
 TEST_F(ReportBadInput, AnEmptyFile) {
   std::ofstream(in_folder("empty.bag")).close();

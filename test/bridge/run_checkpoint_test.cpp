@@ -168,7 +168,7 @@ TEST_F(RunCheckpoint, RefusesWhatMakesNoSense) {
   expect_bad_input("--checkpoint " + options_.checkpoint + ": cannot be written: No such file or directory");
   options_.checkpoint.clear();
   options_.resume = folder_.file("none.h5");
-  expect_bad_input("checkpoint " + options_.resume + ": cannot be read: No such file or directory");
+  expect_bad_input("checkpoint " + options_.resume + ": no such file; check the path");
 }
 
 TEST_F(RunCheckpoint, RefusesAnotherScene) {

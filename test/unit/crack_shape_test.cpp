@@ -75,6 +75,20 @@ TEST(CrackShape, FindsFaults) {
   says({{0, 0}, {0.2, 0}, {0.3, 0.1}, {0.15, 0.1}, {0.1, 0}, {0, 0}}, "segments 1 and 4");
 }
 
+// A zigzag of 2,499 segments in 50 rows, and one more that turns back.
+TEST(CrackShape, FindsACrossingAmongManySegments) {
+  std::vector<Vec2> chain;
+  for (int row = 0; row < 50; ++row) {
+    for (int k = 0; k < 50; ++k) chain.emplace_back(0.05 * (row % 2 == 0 ? k : 49 - k), 0.05 * row);
+  }
+  EXPECT_EQ(line_fault(chain, 0.1), "");
+  chain.emplace_back(0.025, 2.45);  // back along the last row, which ends at x = 0
+  const std::string fault = line_fault(chain, 0.1);
+  EXPECT_NE(fault.find("segments 2499 and 2500"), std::string::npos) << fault;
+  EXPECT_TRUE(lies_along({{1.0, 0.1}, {1.2, 0.1}, {1.4, 0.1}}, chain, 0.1));
+  EXPECT_FALSE(lies_along({{1.0, 0.07}, {1.2, 0.07}, {1.4, 0.07}}, chain, 0.1));
+}
+
 TEST(CrackShape, FindsNoFaultInSoundChains) {
   EXPECT_EQ(line_fault({{0, 0}, {0.1, 0}}, 0.1), "");
   EXPECT_EQ(line_fault({{0, 0}, {0.2, 0}, {0.4, 0}}, 0.1), "");  // two cells exactly

@@ -255,7 +255,7 @@ TEST(MaterialDriver, RefusesOptionsThatDoNotFit) {
   options.material = kSand;
   EXPECT_EQ(error_of(options).find("give one path: a name of uniaxial_strain, "), 0U);
   options.path_file = "/no/such.csv";
-  EXPECT_EQ(error_of(options), "/no/such.csv: cannot be read; check the path and its permissions");
+  EXPECT_EQ(error_of(options), "/no/such.csv: no such file; check the path");
   options.rate = "1";
   EXPECT_EQ(error_of(options), "a path from a file has its own strains, stresses and times; give --steps alone");
   options.path_file.clear();

@@ -1,5 +1,6 @@
 // Mesh files of all formats, and package:// paths.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -127,12 +128,49 @@ TEST_F(MeshFile, ColladaKeepsItsAxesAndAppliesItsUnitAndNodes) {
 
 TEST_F(MeshFile, Unreadable) {
   const std::string missing = (folder_ / "none.stl").string();
-  EXPECT_EQ(message(missing), missing + ": no such mesh file");
+  EXPECT_EQ(message(missing), missing + ": no such file; check the path");
   const std::string strange = write("notes.txt", "not a mesh");
   EXPECT_TRUE(starts_with(message(strange), strange + ": cannot be read as a mesh")) << message(strange);
   EXPECT_NE(message(write("broken.stl", "solid broken\nfacet")), "");
   EXPECT_NE(message(write("empty.obj", "# nothing\n")), "");
   EXPECT_THROW(load_mesh(write("box.stl", binary_stl(box_)), 0.0), RigidError);
+}
+
+// A pipe keeps its reader waiting, a device has no end, and a parser that calls itself has a stack.
+TEST_F(MeshFile, WhatIsNoFileOrTooDeepIsRefused) {
+  const std::string pipe = (folder_ / "pipe.stl").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(message(pipe), pipe + ": it is a device, a pipe or a socket; name a regular file");
+  EXPECT_NE(message(folder_.string()).find("it is a folder"), std::string::npos);
+  // Also where a mesh names it: the materials of an OBJ.
+  ASSERT_EQ(mkfifo((folder_ / "pipe.mtl").c_str(), 0600), 0);
+  std::ostringstream text;
+  text << "mtllib pipe.mtl\n";
+  for (const Vec3& vertex : box_.vertices) text << "v " << vertex.transpose() << "\n";
+  text << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  expect_box(load_mesh(write("named.obj", text.str())));
+  std::string nodes = collada(box_, "1", "Z_UP"), open, close;
+  for (int i = 0; i < 50000; ++i) open += "<node>", close += "</node>";
+  nodes.insert(nodes.find("<node id"), open);
+  nodes.insert(nodes.find("</visual_scene>"), close);
+  EXPECT_NE(message(write("deep.dae", nodes)).find("more than 200 deep"), std::string::npos);
+  EXPECT_NE(message(write("deep.gltf", "{\"nodes\": " + std::string(50000, '['))).find("more than 200 deep"),
+            std::string::npos);
+}
+
+// A sphere of 32,768 triangles; STL repeats every vertex six times. Half a second at most.
+TEST_F(MeshFile, ManyTrianglesAreReadInTimeOfTheirNumber) {
+  const TriangleMesh sphere = sphere_mesh(0.5, 6);
+  const TriangleMesh read = load_mesh(write("sphere.stl", binary_stl(sphere)));
+  EXPECT_EQ(read.vertices.size(), 16386U);  // Euler: 2 more than half of the triangles
+  EXPECT_EQ(read.triangles.size(), 32768U);
+  const auto surface = make_mesh(read);
+  EXPECT_NEAR(surface->at({0.0, 0.0, 0.7}).distance, 0.2, 1e-6);
+  EXPECT_NEAR(surface->thickness(), 1.0, 1e-2);
+  TriangleMesh huge;
+  huge.vertices = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
+  huge.triangles.assign(2000001, {0, 1, 2});
+  EXPECT_THROW(join_equal_vertices(huge), RigidError);
 }
 
 TEST_F(MeshFile, Packages) {

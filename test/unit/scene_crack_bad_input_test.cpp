@@ -114,16 +114,23 @@ TEST(SceneCrackBadInput, FilesOfPoints) {
     return crack_refusal(text, label);
   };
   EXPECT_NE(crack_refusal(text, label).find("bad.yaml:19: cracks.list.notch.file: "), std::string::npos);
-  EXPECT_NE(crack_refusal(text, label).find("cannot be read;"), std::string::npos);
+  EXPECT_NE(crack_refusal(text, label).find("no such file; check the path"), std::string::npos);
   EXPECT_NE(refused_with("0.3, 0.85, 1\n1, 0.85, 1\n").find("3 numbers a line; write two"), std::string::npos);
   EXPECT_NE(refused_with("0.3, 0.85\n").find("one point; a crack has two or more"), std::string::npos);
   EXPECT_NE(refused_with("").find("path.csv: it is empty; write lines of x and z"), std::string::npos);
   const std::string directory = crack_refusal(spoilt_scene(19, "      file: ."), label);
-  EXPECT_NE(directory.find("cannot be read;"), std::string::npos) << directory;
+  EXPECT_NE(directory.find("it is a folder; name a file"), std::string::npos) << directory;
   EXPECT_NE(refused_with("0.3, 0.85\n1, inf\n").find("not finite"), std::string::npos);
   const std::string broken = refused_with("0.3, 0.85\n1, here\n");
   EXPECT_NE(broken.find("path.csv:2: 'here' is not a number"), std::string::npos) << broken;
   EXPECT_NE(broken.find("bad.yaml:19: cracks.list.notch.file: "), std::string::npos) << broken;
+  EXPECT_NE(refused_with("0,3\t0,85\n").find("if these are decimal commas, write points"), std::string::npos);
+  // Once each segment was checked against every other: 300,000 points took minutes.
+  std::string many;
+  for (int i = 0; i < 300000; ++i) many += "0." + std::to_string(3000000 + i) + ", 0.85\n";
+  EXPECT_NE(refused_with(many.c_str()).find("300000 points make more than 10000 segments, the most of a crack"),
+            std::string::npos);
+  EXPECT_NE(crack_refusal(spoilt_scene(19, "      file: /dev/zero"), label).find("it is a device"), std::string::npos);
   EXPECT_EQ(refused_with("0.3, 0.85\n1, 0.85\n"), "no error");
 }
 

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <limits>
 #include <random>
+#include <regex>
+#include <string>
 
 #include "scene_tool.hpp"
 
@@ -73,6 +75,62 @@ TEST_F(SceneHeightFile, TextRowByRow) {
   }
 }
 
+// Maps as spreadsheets and other programs write them, which were once taken for other maps without a word.
+TEST_F(SceneHeightFile, TextThatIsAnotherMapIsRefusedWithItsLine) {
+  const auto refused = [&](const std::string& text, const std::string& what) {
+    const std::string keys = "height_field: {x: [0, 1], y: [0, 1], file: " + write("map.txt", text) + "}";
+    expect_refused(scene("solid", keys), "shape.height_field.file", what);
+    expect_refused(scene("solid", "height_field: {x: [0, 1], y: [0, 1], table: \"" +
+                                      std::regex_replace(std::regex_replace(text, std::regex("\n"), "\\n"),
+                                                         std::regex("\t"), "\\t") +
+                                      "\"}"),
+                   "shape.height_field.table", what);
+  };
+  refused("0,1\t0,2\n0,3\t0,4\n",
+          ":1: commas and blanks both divide its numbers, so that '1 0' stands between commas: if these are decimal");
+  refused("1\t2\n1\t0,5\n", ":2: commas and blanks both divide");
+  refused("0,1 0,2\n0,3 0,4\n", ":1: commas and blanks both divide");
+  refused("0,1;0,2\n0,3;0,4\n", "write commas or blanks between numbers, and decimal points");
+  refused("0.1,0.2,0.3\n0.1,,0.3\n", ":2: nothing stands in the place of number 2");
+  refused("0.1,0.2\n,0.3\n", ":2: nothing stands in the place of number 1");
+  refused("0.1,0.2,\n0.1,0.2,\n", ":1: nothing stands in the place of number 3");
+  std::string places, holed;
+  for (int i = 0; i < 12; ++i) {
+    const std::string row = std::to_string(0.25 * (i % 4)) + " " + std::to_string(0.5 * (i / 4)) + " 0.3\n";
+    places += row;
+    if (i != 5) holed += row;
+  }
+  refused(places, "its 12 rows of three numbers are a list of points, x, y and height; write the heights alone");
+  refused(holed, "its 11 rows of three numbers are a list of points");
+  // Three heights a row are a map, also where the first two columns hold few different numbers.
+  const std::string three = write("three.csv", "0 1 0\n1 0 0\n0 0 0\n0 1 0\n1 0 0\n0 0 0\n1 1 0\n");
+  EXPECT_NO_THROW(tool("solid", "height_field: {x: [0, 1], y: [0, 1], file: " + three + "}"));
+}
+
+TEST_F(SceneHeightFile, AByteOrderMarkIsNoHeight) {
+  const std::string file = write("bom.csv",
+                                 "\xEF\xBB\xBF"
+                                 "0,0,0\n3,3,3\n");
+  const std::string keys = "height_field: {x: [0, 1], y: [0, 3], file: " + file + "}";
+  EXPECT_NEAR(tool("solid", keys).surface->at({0.5, 1.0, 2.0}).distance, std::sqrt(0.5), 1e-15);
+}
+
+TEST_F(SceneHeightFile, WhatIsNoFileOrTooLargeIsRefused) {
+  const auto refused = [](const std::string& rest, const std::string& where, const std::string& what) {
+    expect_refused(scene("solid", "height_field: {x: [0, 1], y: [0, 1], " + rest + "}"), "shape.height_field." + where,
+                   what);
+  };
+  const std::string pipe = (folder_ / "pipe.tif").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  refused("file: " + pipe, "file", "pipe.tif: it is a device, a pipe or a socket; name a regular file");
+  refused("file: " + folder_.string(), "file", "it is a folder; name a file");
+  refused("file: /dev/zero", "file", "it is a device");
+  // A tool is drawn and searched as triangles; ground is not (scene_terrain_test).
+  refused("scale: 1, file: " + write("wide.pgm", "P5 2000 1000 255 0"), "file",
+          "2000 x 1000 points are more than 1048576, the most that a map of a rigid body may have");
+  refused("heights: x, cells: [2000, 1000]", "cells", "write fewer cells");
+}
+
 TEST_F(SceneHeightFile, AnImageWithItsTopAtHighY) {
   // The image is dark below and white (3 m) above, in 8 bits plain and 16 bits binary.
   const std::string plain = write("plain.pgm", "P2 # dark below\n2 2\n255\n255 255\n0 0\n");
@@ -88,7 +146,7 @@ TEST_F(SceneHeightFile, FilesThatHoldNoFieldAreRefused) {
     expect_refused(scene("solid", "height_field: {x: [0, 1], y: [0, 1], file: " + file + more + "}"),
                    "shape.height_field.file", what);
   };
-  refused("/no/such.csv", "cannot be read");
+  refused("/no/such.csv", "no such file; check the path");
   refused(write("words.csv", "0, 1\n0, high\n"), "words.csv:2: 'high' is not a number");
   refused(write("ragged.csv", "0, 1\n0\n"), "ragged.csv:2: 1 numbers, but 2 in the rows before");
   refused(write("one.csv", "0, 1\n"), "two points at least along each axis");

@@ -120,9 +120,10 @@ class SceneTerrainFile : public ::testing::Test {
   }
 
   struct Tags {
-    double pixel = 0.2;          // 0: no ModelPixelScale
-    bool is_point = false;       // GTRasterTypeGeoKey
-    int model = 1, unit = 9001;  // projected, metre
+    double pixel = 0.2;                   // 0: no ModelPixelScale
+    bool is_point = false;                // GTRasterTypeGeoKey
+    int model = 1, unit = 9001;           // projected, metre
+    int vertical = 0, vertical_unit = 0;  // VerticalGeoKey and VerticalUnitsGeoKey; 0: none
     const char* no_data = nullptr;
     bool tiled = false;
     int samples = 1;
@@ -152,12 +153,18 @@ class SceneTerrainFile : public ::testing::Test {
     const double scale[] = {tags.pixel, tags.pixel, 0.0};
     const double tie[] = {0, 0, 0, tags.corner.x(), tags.corner.y(), 0};
     const auto raster = static_cast<std::uint16_t>(tags.is_point ? 2 : 1);
-    const std::uint16_t keys[] = {1,    1, 0, 3,      1024, 0, 1, static_cast<std::uint16_t>(tags.model),
-                                  1025, 0, 1, raster, 3076, 0, 1, static_cast<std::uint16_t>(tags.unit)};
+    std::vector<std::uint16_t> keys = {1, 1, 0, 0};
+    const std::pair<int, int> entries[] = {
+        {1024, tags.model}, {1025, raster}, {3076, tags.unit}, {4096, tags.vertical}, {4099, tags.vertical_unit}};
+    for (const auto& [key, value] : entries) {
+      if (value == 0) continue;
+      for (const int number : {key, 0, 1, value}) keys.push_back(static_cast<std::uint16_t>(number));
+      ++keys[3];
+    }
     if (tags.pixel > 0) {
       TIFFSetField(file, 33550, 3, scale);
       TIFFSetField(file, 33922, 6, tie);
-      TIFFSetField(file, 34735, 16, keys);
+      TIFFSetField(file, 34735, static_cast<int>(keys.size()), keys.data());
     }
     if (tags.no_data != nullptr) TIFFSetField(file, 42113, tags.no_data);
     constexpr int kTile = 16;
@@ -225,6 +232,25 @@ TEST_F(SceneTerrainFile, GeoTiffLiesWhereItsTagsSay) {
   Tags feet = point;
   feet.pixel = 0.2 / 0.3048, feet.corner = {0.0, 1.0 / 0.3048}, feet.unit = 9002;
   expect_the_plane("file: " + tiff("feet.tif", 6, 6, feet, height));
+  // Heights in feet by the unit or the reference system that the keys name, and not where a scale is written.
+  const std::function<float(int, int)> high = [](int i, int j) {
+    return static_cast<float>((0.053 + 0.04 * i + 0.08 * j) / 0.3048);
+  };
+  for (const auto& [system, unit] : {std::pair{0, 9002}, std::pair{0, 9003}, std::pair{8228, 0}, std::pair{6360, 0}}) {
+    Tags up = point;
+    up.vertical = system, up.vertical_unit = unit;  // a survey foot is 2 parts in a million longer
+    expect_the_plane("file: " + tiff("up.tif", 6, 6, up, high));
+    if (unit == 9003) expect_the_plane("scale: 1 m, file: " + tiff("written.tif", 6, 6, up, height));
+  }
+  Tags metres = point;
+  metres.vertical_unit = 9001, metres.vertical = 5703;
+  expect_the_plane("file: " + tiff("metres.tif", 6, 6, metres, height));
+  Tags fathoms = point;
+  fathoms.vertical_unit = 9014;
+  const std::string odd = tiff("fathoms.tif", 6, 6, fathoms, height);
+  expect_refused("file: " + odd, ".file",
+                 "unit of code 9014 (VerticalUnits), which is neither metre nor foot; write scale");
+  expect_the_plane("scale: 1, file: " + odd);
   // Elsewhere by x and y, of the size from centre to centre or from edge to edge.
   Tags far = point;
   far.corner = {500000.0, 4000000.0};
@@ -318,7 +344,7 @@ TEST_F(SceneTerrainFile, WhatIsNoMapIsRefused) {
   std::filesystem::resize_file(sound, std::filesystem::file_size(sound) / 2);
   refused(place + "scale: 1, ", sound, "not a sound PNG");
   refused(place, write("photo.jpg", std::string("\xff\xd8\xff\xe0\0\x10JFIF", 10)), "neither text nor an image");
-  refused(place, write("empty.csv", ""), "cannot be read, or is empty");
+  refused(place, write("empty.csv", ""), "it is empty");
   refused(place, write("comment.csv", "# nothing\n"), "it has no points");
   refused(place, write("huge.pgm", "P2 1000000 1000000 255 0"), "cut out the part that is needed");
   refused(place, write("stub.tif", std::string("II*\0\x08\0\0\0", 8)), "not a sound TIFF");

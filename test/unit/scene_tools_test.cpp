@@ -1,9 +1,12 @@
 // Tools of revolution in scenes: their shapes in solid and in axisymmetric scenes, and refusals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
+#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/tool_size.hpp"
 #include "scene_tool.hpp"
 
 namespace mpm {
@@ -47,6 +50,37 @@ TEST(SceneTools, SidesOfAThinTool) {
   expect_refused(scene("solid", kRing, "divides: block"), "divides", "write a list");
   expect_refused(scene("solid", kRing, "divides: [blok]"), "divides.0", "no deformable body is called 'blok'");
   expect_refused(scene("solid", kRing, "sides: one, divides: [block]"), "divides", "divides nothing");
+}
+
+// The grid of scene() is 1 m long, and the block fills it.
+TEST(SceneTools, ATooLargeToolIsDoubtedForItsUnit) {
+  const auto doubt = [](const std::string& geometry, const std::string& shape) {
+    const Scene read = parse_scene(scene(geometry, shape), "good.yaml");
+    return size_doubt(read.definition.rigid_bodies.at(0), read.definition);
+  };
+  EXPECT_EQ(doubt("solid", "box: {size: [100, 20, 20]}"),
+            "rigid body 'tool' is 100 m long in a grid of 1 m: check its unit (scale)");
+  EXPECT_NE(doubt("solid", "sphere: {radius: 0.6}"), "") << "longer along each axis";
+  EXPECT_NE(doubt("plane_strain", "sphere: {radius: 6}"), "");
+  EXPECT_EQ(doubt("solid", "box: {size: [9, 9, 0.1]}"), "") << "a floor";
+  EXPECT_EQ(doubt("solid", "plane: {}"), "") << "without end";
+  EXPECT_EQ(doubt("solid", "height_field: {x: [-50, 50], y: [-50, 50], heights: 0}"), "");
+  EXPECT_EQ(doubt("plane_strain", "box: {size: [0.5, 0.5]}"), "");
+  const Scene large = parse_scene(scene("solid", "box: {size: [100, 20, 20]}"), "good.yaml");
+  try {
+    build(large);
+    FAIL() << "the block lies in the tool";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("100 m long in a grid of 1 m: check its unit (scale); as it is, body"),
+              std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("cut_out"), std::string::npos) << error.what();
+  }
+  const Scene away =
+      parse_scene(scene("solid", "box: {size: [100, 20, 20]}", "pose: {position: [0, 0, 20]}"), "a.yaml");
+  const std::vector<std::string> warnings = Simulation(build(away), {1}).warnings();
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("is 100 m long in a grid of 1 m: check its unit (scale)") != std::string::npos;
+  }));
 }
 
 TEST(SceneTools, AToolThatIsNotAxisymmetricIsRefused) {

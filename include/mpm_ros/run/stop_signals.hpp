@@ -13,6 +13,16 @@ bool stop_requested();
 /// It came longer ago than kStopGrace: what has not come to an end by itself since is left as it is.
 bool stop_overdue();
 
+/// While one lives the program reads and has nothing to lose: where it does not come to an end by itself within a second
+/// of a stop, as in a library that reads a large file, the process ends, with a line that says so and exit code 0.
+class NothingToLose {
+ public:
+  NothingToLose();
+  ~NothingToLose();
+  NothingToLose(const NothingToLose&) = delete;
+  NothingToLose& operator=(const NothingToLose&) = delete;
+};
+
 inline constexpr std::chrono::milliseconds kStopGrace{400};
 
 }  // namespace mpm_ros

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
 
 #include "mpm/crack/crossing.hpp"
 
@@ -44,14 +47,58 @@ bool folds_back(const Vec2& before, const Vec2& at, const Vec2& after) {
   return double_area(before, at, after) == 0.0 && (before - at).dot(after - at) > 0.0;
 }
 
-std::string crossing_fault(const std::vector<Vec2>& points, bool closed) {
+/// The segments of a chain by the squares of a grid that they pass, so that those near a place are found without
+/// looking at all.
+class SegmentSquares {
+ public:
+  /// `side`: of a square, best that of the longest segment.
+  SegmentSquares(const std::vector<Vec2>& points, double side) : side_(side) {
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      each_square(points[k].cwiseMin(points[k + 1]), points[k].cwiseMax(points[k + 1]),
+                  [&](const Square& square) { squares_[square].push_back(k); });
+    }
+  }
+  /// Those that can meet the box from `low` to `high`, in their order.
+  std::vector<std::size_t> near(const Vec2& low, const Vec2& high) const {
+    std::vector<std::size_t> found;
+    each_square(low, high, [&](const Square& square) {
+      const auto here = squares_.find(square);
+      if (here != squares_.end()) found.insert(found.end(), here->second.begin(), here->second.end());
+    });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+ private:
+  using Square = std::pair<std::int64_t, std::int64_t>;
+  static constexpr double kFarthest = 1e15;  ///< [squares]; beyond, all are one
+
+  template <class Visit>
+  void each_square(const Vec2& low, const Vec2& high, const Visit& visit) const {
+    const auto number = [&](double place) {
+      return static_cast<std::int64_t>(std::floor(std::clamp(place / side_, -kFarthest, kFarthest)));
+    };
+    for (std::int64_t i = number(low.x()); i <= number(high.x()); ++i) {
+      for (std::int64_t j = number(low.y()); j <= number(high.y()); ++j) visit({i, j});
+    }
+  }
+
+  double side_;
+  std::map<Square, std::vector<std::size_t>> squares_;
+};
+
+std::string crossing_fault(const std::vector<Vec2>& points, bool closed, double side) {
   const std::size_t segments = points.size() - 1;
   const auto fault = [](std::size_t one, std::size_t other, const Vec2& place) {
     return fmt::format("segments {} and {} of the chain meet at {} m; a crack must not cross itself: divide it in two",
                        one + 1, other + 1, place_text(place));
   };
+  const SegmentSquares squares(points, side);
   for (std::size_t one = 0; one < segments; ++one) {
-    for (std::size_t other = one + 1; other < segments; ++other) {
+    const Vec2 &from = points[one], &to = points[one + 1], pad = Vec2::Constant(kSamePlace * side);
+    for (const std::size_t other : squares.near(from.cwiseMin(to) - pad, from.cwiseMax(to) + pad)) {
+      if (other <= one) continue;
       if (other == one + 1) {
         if (!folds_back(points[one], points[other], points[other + 1])) continue;
         return fault(one, other, points[other]);
@@ -125,12 +172,14 @@ std::string line_fault(const std::vector<Vec2>& points, double cell) {
           place_text(points[k]), place_text(points[k + 1]), length, kLongestSegment * cell);
     }
   }
-  return crossing_fault(points, (points.back() - points.front()).norm() <= kSamePlace * cell);
+  return crossing_fault(points, (points.back() - points.front()).norm() <= kSamePlace * cell, kLongestSegment * cell);
 }
 
 bool lies_along(const std::vector<Vec2>& points, const std::vector<Vec2>& other, double cell) {
+  const SegmentSquares squares(other, kLongestSegment * cell);
+  const Vec2 around = Vec2::Constant(kAlong * cell);
   const auto near = [&](const Vec2& point) {
-    for (std::size_t k = 0; k + 1 < other.size(); ++k) {
+    for (const std::size_t k : squares.near(point - around, point + around)) {
       const double part = nearest_part(other[k], other[k + 1], point);
       if ((other[k] + part * (other[k + 1] - other[k]) - point).norm() < kAlong * cell) return true;
     }

@@ -1,10 +1,12 @@
 // Checks on a triangle mesh before it serves as a rigid body.
 #include "mpm/rigid/mesh_topology.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <sstream>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -14,32 +16,23 @@ namespace mpm {
 
 namespace {
 
-using Edge = std::pair<int, int>;
+constexpr std::size_t kMostTriangles = 2'000'000;
+constexpr double kSameAngle = 1e-9;  ///< [rad] between triangles at an edge that lie on each other
 
-std::string place_of(const Vec3& point) {
-  std::ostringstream text;
-  text << "(" << point.x() << ", " << point.y() << ", " << point.z() << ")";
-  return text.str();
-}
-
-std::string place_of(const TriangleMesh& mesh, const Edge& edge) {
-  return place_of(mesh.vertices[edge.first]) + " to " + place_of(mesh.vertices[edge.second]);
-}
+std::string place_of(const Vec3& point) { return fmt::format("({:g}, {:g}, {:g})", point.x(), point.y(), point.z()); }
 
 void check_numbers(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw RigidError("mesh: it has no triangles");
+  check_triangle_count(mesh.triangles.size());
   const int count = static_cast<int>(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!mesh.vertices[v].allFinite()) {
-      throw RigidError("mesh: vertex " + std::to_string(v) + " is not finite: " + place_of(mesh.vertices[v]));
-    }
+    if (!mesh.vertices[v].allFinite())
+      throw RigidError(fmt::format("mesh: vertex {} is not finite: {}", v, place_of(mesh.vertices[v])));
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int v : mesh.triangles[t]) {
-      if (v < 0 || v >= count) {
-        throw RigidError("mesh: triangle " + std::to_string(t) + " names vertex " + std::to_string(v) +
-                         ", but there are " + std::to_string(count));
-      }
+      if (v < 0 || v >= count)
+        throw RigidError(fmt::format("mesh: triangle {} names vertex {}, but there are {}", t, v, count));
     }
   }
 }
@@ -48,6 +41,7 @@ void check_numbers(const TriangleMesh& mesh) {
 /// corners lie on a line cannot go without opening the mesh, and has no normal to stay.
 std::vector<std::array<int, 3>> with_area(const TriangleMesh& mesh) {
   std::vector<std::array<int, 3>> kept;
+  kept.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [i, j, k] = mesh.triangles[t];
     if (i == j || j == k || k == i) continue;
@@ -55,8 +49,9 @@ std::vector<std::array<int, 3>> with_area(const TriangleMesh& mesh) {
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     // 1e-12: a height a million million times smaller than the side is rounding, not shape.
     if (!((b - a).cross(c - a).norm() > 1e-12 * longest)) {
-      throw RigidError("mesh: triangle " + std::to_string(t) + " at " + place_of(a) +
-                       " has no area; repair the mesh (merge vertices, remove degenerate faces)");
+      throw RigidError(
+          fmt::format("mesh: triangle {} at {} has no area; repair the mesh (merge vertices, remove degenerate faces)",
+                      t, place_of(a)));
     }
     kept.push_back(mesh.triangles[t]);
   }
@@ -64,93 +59,209 @@ std::vector<std::array<int, 3>> with_area(const TriangleMesh& mesh) {
   return kept;
 }
 
-/// The triangle on the left of each directed edge. @throws RigidError unless each edge and its opposite occur once.
-std::map<Edge, int> paired_edges(const TriangleMesh& mesh) {
-  std::map<Edge, int> owner;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int e = 0; e < 3; ++e) {
-      const Edge edge{mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]};
-      if (!owner.emplace(edge, static_cast<int>(t)).second) {
-        throw RigidError("mesh: not consistently oriented: the edge " + place_of(mesh, edge) +
-                         " is used twice in one direction; turn the faces alike, and join no more than two at an edge");
+/// A side of a triangle, and the edge that it lies on.
+struct Side {
+  std::uint64_t edge;  ///< its two vertices, the lower one first
+  int number;
+  bool forward;  ///< from the lower vertex to the higher one
+};
+
+/// Finds each side's mate.
+class SidePairs {
+ public:
+  explicit SidePairs(const TriangleMesh& mesh) : mesh_(mesh) {}
+
+  std::vector<int> find() {
+    std::vector<Side> sides;
+    sides.reserve(3 * mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      for (int e = 0; e < 3; ++e) {
+        const auto from = static_cast<std::uint32_t>(mesh_.triangles[t][e]);
+        const auto to = static_cast<std::uint32_t>(mesh_.triangles[t][(e + 1) % 3]);
+        const std::uint64_t edge = std::uint64_t{std::min(from, to)} << 32 | std::max(from, to);
+        sides.push_back({edge, static_cast<int>(3 * t) + e, from < to});
+      }
+    }
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.number < b.number; });
+    mate_.assign(sides.size(), -1);
+    for (auto first = sides.begin(); first != sides.end();) {
+      const auto last = std::find_if(first, sides.end(), [&](const Side& side) { return side.edge != first->edge; });
+      pair(&*first, static_cast<std::size_t>(last - first));
+      first = last;
+    }
+    if (open_ > 0) {
+      throw RigidError(
+          fmt::format("mesh: not closed: {} edges have a triangle on one side only, the first from {}; fill the holes "
+                      "and merge vertices",
+                      open_, place_of_side(first_open_)));
+    }
+    return std::move(mate_);
+  }
+
+ private:
+  /// Pairs the sides at one edge.
+  void pair(Side* sides, std::size_t count) {
+    const auto forward =
+        static_cast<std::size_t>(std::count_if(sides, sides + count, [](const Side& side) { return side.forward; }));
+    if (2 * forward == count) {
+      if (count > 2) sort_around(sides, count);
+      match(sides, count);
+      return;
+    }
+    if (forward > 1 || count - forward > 1) {
+      const bool twice_forward = forward > 1;
+      const Side* twice =
+          std::find_if(sides, sides + count, [&](const Side& side) { return side.forward == twice_forward; });
+      throw RigidError(fmt::format(
+          "mesh: not consistently oriented: the edge {} is used twice in one direction; turn the faces alike, and join "
+          "no more than two at an edge",
+          place_of_side(twice->number)));
+    }
+    if (open_++ == 0) first_open_ = sides->number;
+  }
+
+  /// By their angle about the edge, the low vertex below. Seen so, material lies at smaller angles than a forward
+  /// side's triangle, and at larger ones than a backward side's.
+  void sort_around(Side* sides, std::size_t count) const {
+    const Vec3& low = mesh_.vertices[static_cast<std::size_t>(sides->edge >> 32)];
+    const Vec3& high = mesh_.vertices[static_cast<std::size_t>(sides->edge & 0xffffffffU)];
+    const Vec3 along = (high - low).normalized();
+    const auto arm = [&](const Side& side) {
+      const Vec3 third = mesh_.vertices[mesh_.triangles[side.number / 3][(side.number % 3 + 2) % 3]] - low;
+      return Vec3(third - third.dot(along) * along);
+    };
+    const Vec3 first = arm(*sides).normalized(), across = along.cross(first);
+    std::vector<std::pair<double, Side>> turned;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 out = arm(sides[i]);
+      double angle = std::atan2(out.dot(across), out.dot(first));
+      if (angle < -kSameAngle) angle += 2.0 * kPi;
+      turned.emplace_back(angle, sides[i]);
+    }
+    std::sort(turned.begin(), turned.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Where triangles lie on each other, the material behind one ends before that of the next begins.
+    for (auto begin = turned.begin(); begin != turned.end();) {
+      auto end = begin + 1;
+      while (end != turned.end() && end->first - (end - 1)->first < kSameAngle) ++end;
+      std::stable_partition(begin, end, [](const auto& one) { return one.second.forward; });
+      begin = end;
+    }
+    for (std::size_t i = 0; i < count; ++i) sides[i] = turned[i].second;
+  }
+
+  /// Going round, each backward side with the forward one that closes it.
+  void match(const Side* sides, std::size_t count) {
+    std::vector<int> open;
+    for (std::size_t i = 0; i < 2 * count; ++i) {  // twice round, since the first ones can close what begins last
+      const Side& side = sides[i % count];
+      if (mate_[side.number] >= 0) continue;
+      if (!side.forward) {
+        if (i < count) open.push_back(side.number);
+      } else if (!open.empty()) {
+        mate_[side.number] = open.back();
+        mate_[open.back()] = side.number;
+        open.pop_back();
       }
     }
   }
-  std::size_t open = 0;
-  Edge first;
-  for (const auto& [edge, triangle] : owner) {
-    if (owner.count({edge.second, edge.first}) != 0) continue;
-    if (open++ == 0) first = edge;
-  }
-  if (open > 0) {
-    throw RigidError("mesh: not closed: " + std::to_string(open) +
-                     " edges have a triangle on one side only, the first from " + place_of(mesh, first) +
-                     "; fill the holes and merge vertices");
-  }
-  return owner;
-}
 
-/// The connected part that each triangle belongs to, numbered from 0.
-std::vector<int> parts_of(const TriangleMesh& mesh, const std::map<Edge, int>& owner) {
-  std::vector<int> part(mesh.triangles.size(), -1);
-  int count = 0;
+  std::string place_of_side(int side) const {
+    const auto& triangle = mesh_.triangles[static_cast<std::size_t>(side / 3)];
+    return place_of(mesh_.vertices[triangle[side % 3]]) + " to " + place_of(mesh_.vertices[triangle[(side + 1) % 3]]);
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<int> mate_;
+  std::size_t open_ = 0;
+  int first_open_ = -1;
+};
+
+/// Numbers the connected parts.
+void find_parts(SolidMesh& solid) {
+  solid.part.assign(solid.mesh.triangles.size(), -1);
   std::vector<int> todo;
-  for (std::size_t seed = 0; seed < part.size(); ++seed) {
-    if (part[seed] >= 0) continue;
+  for (std::size_t seed = 0; seed < solid.part.size(); ++seed) {
+    if (solid.part[seed] >= 0) continue;
     todo.push_back(static_cast<int>(seed));
-    part[seed] = count;
+    solid.part[seed] = solid.parts;
     while (!todo.empty()) {
       const int t = todo.back();
       todo.pop_back();
       for (int e = 0; e < 3; ++e) {
-        const int next = owner.at({mesh.triangles[t][(e + 1) % 3], mesh.triangles[t][e]});
-        if (part[next] >= 0) continue;
-        part[next] = count;
+        const int next = solid.mate[static_cast<std::size_t>(3 * t + e)] / 3;
+        if (solid.part[next] >= 0) continue;
+        solid.part[next] = solid.parts;
         todo.push_back(next);
       }
     }
-    ++count;
+    ++solid.parts;
   }
-  return part;
 }
 
-/// Solid angle of triangle abc seen from the origin, signed: Van Oosterom & Strackee (1983) eq. (8).
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+/// Gives each part vertices of its own.
+void part_vertices(SolidMesh& solid) {
+  std::vector<std::vector<int>> triangles_of(static_cast<std::size_t>(solid.parts));
+  for (std::size_t t = 0; t < solid.part.size(); ++t) triangles_of[solid.part[t]].push_back(static_cast<int>(t));
+  std::vector<int> number(solid.mesh.vertices.size(), -1), last_part(solid.mesh.vertices.size(), -1);
+  std::vector<Vec3> vertices;
+  for (int p = 0; p < solid.parts; ++p) {
+    for (const int t : triangles_of[p]) {
+      for (int& v : solid.mesh.triangles[t]) {
+        if (last_part[v] != p) {
+          last_part[v] = p;
+          number[v] = static_cast<int>(vertices.size());
+          vertices.push_back(solid.mesh.vertices[v]);
+        }
+        v = number[v];
+      }
+    }
+  }
+  solid.mesh.vertices = std::move(vertices);
 }
 
-/// Outer parts must lie outside of all others, inward-turned ones inside another.
-void check_parts(const TriangleMesh& mesh, const std::vector<int>& part) {
-  const int count = 1 + *std::max_element(part.begin(), part.end());
-  if (count == 1) return;
-  std::vector<double> volume(count, 0.0);
-  std::vector<Vec3> sample(count);
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
-    const auto& [i, j, k] = mesh.triangles[t];
-    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-    volume[part[t]] += a.dot(b.cross(c)) / 6.0;
-    sample[part[t]] = (a + b + c) / 3.0;
+/// Vertices by their coordinates, in a table of open addresses.
+class VertexTable {
+ public:
+  explicit VertexTable(std::size_t most) {
+    std::size_t size = 16;
+    while (size < 2 * most) size *= 2;
+    slots_.assign(size, -1);
   }
-  for (int p = 0; p < count; ++p) {
-    double turns = 0.0;  // how often the other parts wind around this one's sample point
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (part[t] == p) continue;
-      const auto& [i, j, k] = mesh.triangles[t];
-      turns += solid_angle(mesh.vertices[i] - sample[p], mesh.vertices[j] - sample[p], mesh.vertices[k] - sample[p]) /
-               (4.0 * kPi);
+  /// Its number among `vertices`, to which it is added if it is new.
+  int number_of(const Vec3& vertex, std::vector<Vec3>& vertices) {
+    std::size_t slot = hash(vertex) & (slots_.size() - 1);
+    while (slots_[slot] >= 0) {
+      if (vertices[static_cast<std::size_t>(slots_[slot])] == vertex) return slots_[slot];
+      slot = (slot + 1) & (slots_.size() - 1);
     }
-    // Whole numbers, but one half where parts touch: the quarters decide.
-    if (volume[p] > 0.0 && turns > 0.75) {
-      throw RigidError("mesh: the part at " + place_of(sample[p]) + " lies inside another part; unite the parts");
-    }
-    if (volume[p] < 0.0 && turns < 0.25) {
-      throw RigidError("mesh: the part at " + place_of(sample[p]) + " is turned inside out; turn its faces");
-    }
+    slots_[slot] = static_cast<int>(vertices.size());
+    vertices.push_back(vertex);
+    return slots_[slot];
   }
-}
+
+ private:
+  static std::size_t hash(const Vec3& vertex) {
+    std::uint64_t mixed = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double number = vertex[k] + 0.0;  // -0 is 0
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &number, sizeof bits);
+      mixed = (mixed ^ bits) * 0x9E3779B97F4A7C15U;
+      mixed ^= mixed >> 29;
+    }
+    return static_cast<std::size_t>(mixed ^ mixed >> 32);
+  }
+
+  std::vector<int> slots_;
+};
 
 }  // namespace
+
+void check_triangle_count(std::size_t triangles) {
+  if (triangles <= kMostTriangles) return;
+  throw RigidError(fmt::format("mesh: more than {} triangles; make it coarser", kMostTriangles));
+}
 
 double signed_volume(const TriangleMesh& mesh) {
   // About a vertex, not the world's origin: no cancellation for a mesh drawn far from it.
@@ -164,37 +275,29 @@ double signed_volume(const TriangleMesh& mesh) {
 
 TriangleMesh join_equal_vertices(const TriangleMesh& mesh) {
   check_numbers(mesh);
-  struct Less {
-    bool operator()(const Vec3& a, const Vec3& b) const {
-      return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-    }
-  };
-  std::map<Vec3, int, Less> index;
+  VertexTable table(mesh.vertices.size());
   TriangleMesh joined;
+  joined.triangles.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     std::array<int, 3> corners{};
-    for (int c = 0; c < 3; ++c) {
-      const Vec3& vertex = mesh.vertices[triangle[c]];
-      const auto [place, added] = index.emplace(vertex, static_cast<int>(joined.vertices.size()));
-      if (added) joined.vertices.push_back(vertex);
-      corners[c] = place->second;
-    }
+    for (int c = 0; c < 3; ++c) corners[c] = table.number_of(mesh.vertices[triangle[c]], joined.vertices);
     joined.triangles.push_back(corners);
   }
   return joined;
 }
 
-TriangleMesh solid_mesh(const TriangleMesh& mesh) {
+SolidMesh solid_mesh(const TriangleMesh& mesh) {
   check_numbers(mesh);
-  TriangleMesh solid{mesh.vertices, with_area(mesh)};
-  const std::vector<int> part = parts_of(solid, paired_edges(solid));
-  const double volume = signed_volume(solid);
+  SolidMesh solid;
+  solid.mesh = {mesh.vertices, with_area(mesh)};
+  const double volume = signed_volume(solid.mesh);
   if (volume < 0.0) {
-    for (auto& triangle : solid.triangles) std::swap(triangle[1], triangle[2]);
-  } else if (!(volume > 0.0)) {
-    throw RigidError("mesh: it encloses no volume");
+    for (auto& triangle : solid.mesh.triangles) std::swap(triangle[1], triangle[2]);
   }
-  check_parts(solid, part);
+  solid.mate = SidePairs(solid.mesh).find();
+  if (!(std::abs(volume) > 0.0)) throw RigidError("mesh: it encloses no volume");
+  find_parts(solid);
+  if (solid.parts > 1) part_vertices(solid);
   return solid;
 }
 

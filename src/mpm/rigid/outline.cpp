@@ -10,6 +10,8 @@ namespace mpm {
 
 namespace {
 
+constexpr std::size_t kMostPoints = 4000;  ///< every edge is checked against every other, and looked at from a point
+
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The profile with the number of a point, for a reader who counts from 1.
@@ -33,6 +35,8 @@ bool touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 void check_points(const Profile& profile, const char* shape, bool about_axis) {
   const std::size_t n = profile.size();
   if (n < 3) throw RigidError(fmt::format("{}: the profile has {} points; it needs at least 3", shape, n));
+  if (n > kMostPoints)
+    throw RigidError(fmt::format("{}: the profile has {} points; write {} at most", shape, n, kMostPoints));
   for (std::size_t i = 0; i < n; ++i) {
     const auto refuse = [&](const char* what) {
       throw RigidError(fmt::format("{}: {} {}", shape, point_text(profile, i, about_axis), what));

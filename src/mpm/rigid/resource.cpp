@@ -1,9 +1,9 @@
 // package:// paths without a ROS library: the same places that rospack and catkin search.
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
@@ -24,11 +24,9 @@ std::vector<fs::path> paths_in(const char* variable) {
 
 /// True when the folder's package.xml names the package.
 bool holds_package(const fs::path& folder, const std::string& name) {
-  std::ifstream file(folder / "package.xml");
-  if (!file) return false;
-  std::ostringstream text;
-  text << file.rdbuf();
-  const std::string manifest = text.str(), open = "<name>", blank = " \t\r\n";
+  std::string manifest;
+  if (!read_input((folder / "package.xml").string(), manifest).empty()) return false;
+  const std::string open = "<name>", blank = " \t\r\n";
   const std::size_t start = manifest.find(open);
   if (start == std::string::npos) return false;
   const std::size_t first = manifest.find_first_not_of(blank, start + open.size());

@@ -7,6 +7,7 @@
 
 #include "height_file.hpp"
 #include "mpm/crack/chain_shape.hpp"
+#include "mpm/math/input_file.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/rigid/surface.hpp"
 #include "mpm/scene/sections.hpp"
@@ -31,6 +32,12 @@ void check_length(const Value& value, double length, double segment) {
                          segment));
 }
 
+void check_count(const Value& value, std::size_t points) {
+  if (static_cast<double>(points) <= kMostSegments + 1.0) return;
+  value.fail(fmt::format("{} points make more than {:g} segments, the most of a crack; write fewer points", points,
+                         kMostSegments));
+}
+
 std::vector<Vec2> cut(const Value& value, const std::vector<Vec2>& corners, double segment) {
   double length = 0.0;
   for (std::size_t i = 1; i < corners.size(); ++i) length += (corners[i] - corners[i - 1]).norm();
@@ -44,6 +51,7 @@ std::vector<Vec2> cut(const Value& value, const std::vector<Vec2>& corners, doub
 std::vector<Vec2> read_corners(const Value& value) {
   std::vector<Vec2> corners;
   for (const Value& corner : value.elements()) corners.push_back(read_plane_vector(corner, kLength));
+  check_count(value, corners.size());
   if (corners.size() < 2) {
     value.fail(fmt::format("{}; a crack has two points or more, such as [[0, 0.5], [0.2, 0.5]]",
                            corners.empty() ? "no point" : "one point"));
@@ -69,20 +77,22 @@ std::vector<Vec2> read_point_file(const Value& value) {
   if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative()) {
     path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
   }
-  std::ifstream stream;
   HeightTable table;
   bool empty = false;
+  std::string refused;
   try {
     path = resolve_resource(path);
-    if (!std::filesystem::is_directory(path)) stream.open(path);
-    empty = stream.is_open() && stream.peek() == std::ifstream::traits_type::eof();
-    if (stream.is_open() && !empty) table = read_height_text(stream, path);
+    std::ifstream stream;
+    refused = open_input(stream, path);
+    empty = refused.empty() && stream.peek() == std::ifstream::traits_type::eof();
+    if (refused.empty() && !empty) table = read_number_text(stream, path, kTextLimit);
   } catch (const Error& error) {
     value.fail(error.what());
   }
-  if (!stream.is_open()) value.fail(fmt::format("{}: cannot be read; check the path and its permissions", path));
+  if (!refused.empty()) value.fail(fmt::format("{}: {}", path, refused));
   if (empty) value.fail(fmt::format("{}: it is empty; write lines of x and z, two or more", path));
   if (table.columns != 2) value.fail(fmt::format("{}: {} numbers a line; write two, x and z", path, table.columns));
+  check_count(value, static_cast<std::size_t>(table.rows));
   if (table.rows < 2) value.fail(fmt::format("{}: one point; a crack has two or more", path));
   const double unit = value.context().units.factor(kLength);
   std::vector<Vec2> corners;
@@ -138,6 +148,7 @@ std::vector<Vec2> read_chain(const Map& map, const Scene& scene) {
   }
   const auto shape = chosen_shape(map, kShapes);
   std::vector<Vec2> points = read_chain_shape(shape, segment * cell);
+  check_count(shape.second, points.size());
   if (const std::string fault = line_fault(points, cell); !fault.empty()) shape.second.fail(fault);
   const GridDefinition& grid = scene.definition.grid;
   for (const Vec2& point : points) {

@@ -7,6 +7,7 @@
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/tool_size.hpp"
 
 namespace mpm {
 namespace {
@@ -83,6 +84,10 @@ Filling::Filling(const BodyDefinition& body, const Scene& scene) : body_(&body),
 
 void Filling::check_left(std::uint64_t particles) const {
   if (particles > 0) return;
+  for (const RigidBodyDefinition& rigid : scene_->definition.rigid_bodies) {
+    if (const std::string doubt = size_doubt(rigid, scene_->definition); !doubt.empty())
+      throw SceneError(fmt::format("{}: {}; nothing is left of body '{}'", body_->cut_out_where, doubt, body_->name));
+  }
   throw SceneError(fmt::format("{}: nothing is left of body '{}': all of it lies inside rigid bodies; move one of them",
                                body_->cut_out_where, body_->name));
 }
@@ -130,7 +135,8 @@ FillingChecks::FillingChecks(const BodyDefinition& body, const Scene& scene, dou
     if (&other == &body) break;
     if (other.region.bounds().intersects(body.region.bounds())) overlaps_.push_back({&other});
   }
-  for (const RigidBodyDefinition& rigid : scene.definition.rigid_bodies) inside_.push_back({StandingTool(rigid)});
+  for (const RigidBodyDefinition& rigid : scene.definition.rigid_bodies)
+    inside_.push_back({StandingTool(rigid), size_doubt(rigid, scene.definition)});
 }
 
 void FillingChecks::look(const Vec3& place) {
@@ -156,6 +162,10 @@ void FillingChecks::end() const {
   }
   for (const Inside& inside : inside_) {
     if (inside.count == 0) continue;
+    if (!inside.doubt.empty()) {
+      throw SceneError(fmt::format("{}: {}; as it is, body '{}' overlaps it at the start: {} particles lie inside it",
+                                   body_->where, inside.doubt, body_->name, inside.count));
+    }
     throw SceneError(
         fmt::format("{}: body '{}' overlaps rigid body '{}' at the start: {} particles lie inside it by more than "
                     "half their spacing, the deepest by {:.4g} m; move one of them, or leave them out by cut_out: [{}]",

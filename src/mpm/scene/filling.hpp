@@ -101,6 +101,7 @@ class FillingChecks {
   };
   struct Inside {
     StandingTool tool;
+    std::string doubt;  ///< about its size
     std::size_t count = 0;
     double deepest = 0.0;
   };

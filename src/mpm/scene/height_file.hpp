@@ -16,25 +16,43 @@ namespace mpm {
 struct HeightTable {
   int columns = 0, rows = 0;
   std::vector<double> values;
-  bool of_white = false;  ///< parts of white, 0 to 1, and not heights
+  bool of_white = false;       ///< parts of white, 0 to 1, and not heights
+  std::optional<double> unit;  ///< of a GeoTIFF that says so: the length that its number 1 stands for [m]
+  std::string unit_fault;      ///< why the unit that it says is not known; empty where it is, and where it says none
   /// Of a GeoTIFF, in its own coordinates [m]: places of the first and of the last point.
   std::optional<std::pair<Vec2, Vec2>> span;
   std::string no_span = "it does not say how large it is";  ///< why there is no span, in an error
 };
 
-/// Reads what the file's first bytes say that it is: PNG or PGM (grey, of white), TIFF, else text with one row per
-/// line, numbers separated by commas or blanks, and lines that begin with # skipped. @throws SceneError with the file
-/// and, for text, the line; a file of another kind, or of too many points, is refused.
-HeightTable read_height_file(const std::string& path);
-/// Reads text as above; `label` stands for the file in errors.
-HeightTable read_height_text(std::istream& stream, const std::string& label);
+/// How many points a map may have, and of what: the rest of "the most that ... may have".
+struct HeightLimit {
+  double points;
+  const char* of;
+};
+/// Half a gigabyte of heights, 160 m by 160 m in steps of 2 cm.
+inline constexpr HeightLimit kGroundLimit{1 << 26, "a map"};
+/// What is drawn, searched and sent to RViz as triangles, two a point.
+inline constexpr HeightLimit kToolLimit{1 << 20, "a map of a rigid body"};
+/// What is read in a second or two.
+inline constexpr HeightLimit kTextLimit{1 << 24, "a map in text (write it as GeoTIFF)"};
+
+/// Reads what the file's first bytes say that it is: PNG or PGM (grey, of white), TIFF, else text.
+/// @throws SceneError with the file and, for text, the line; a file of another kind, or of too many points, is refused.
+HeightTable read_height_file(const std::string& path, const HeightLimit& limit);
+/// Reads rows of as many numbers each, one a line, after a byte order mark if there is one: divided by commas, one
+/// between two numbers, or by blanks. Lines that begin with # are skipped. `label` stands for the file in errors.
+/// @throws SceneError with the line, also where commas and blanks both divide, as decimal commas between blanks do
+HeightTable read_number_text(std::istream& stream, const std::string& label, const HeightLimit& limit);
+/// Reads heights so. @throws SceneError as above, and for a list of points, x y z, on a lattice
+HeightTable read_height_text(std::istream& stream, const std::string& label, const HeightLimit& limit);
 /// Reads grey PNG images. Samples of fewer than 16 bits are scaled by their own white. @throws SceneError
-HeightTable read_height_png(const std::string& path);
+HeightTable read_height_png(const std::string& path, const HeightLimit& limit);
 /// Reads TIFF with one sample a pixel, an integer or a floating-point number of 8 to 64 bits, in strips or tiles. Size
 /// and place come from ModelPixelScale and ModelTiepoint (OGC 19-008r4, GeoTIFF 1.1, sections 7.3 and 7.4 and annex
-/// B.6) and holes from GDAL_NODATA. A map whose coordinates are degrees has no span. @throws SceneError
-HeightTable read_height_tiff(const std::string& path);
-/// Refuses a table without points, or so large that it is not meant. @throws SceneError
-void check_height_points(const std::string& path, double columns, double rows);
+/// B.6), the unit of heights from VerticalUnits and VerticalGeoKey, and holes from GDAL_NODATA. A map whose coordinates
+/// are degrees has no span. @throws SceneError
+HeightTable read_height_tiff(const std::string& path, const HeightLimit& limit);
+/// Refuses a table without points, or of more than the limit. @throws SceneError
+void check_height_points(const std::string& path, double columns, double rows, const HeightLimit& limit);
 
 }  // namespace mpm

@@ -57,7 +57,7 @@ bool read_png_rows(PngFile& image) {
 
 }  // namespace
 
-HeightTable read_height_png(const std::string& path) {
+HeightTable read_height_png(const std::string& path, const HeightLimit& limit) {
   PngFile image(path);
   if (image.file == nullptr || image.info == nullptr)
     throw SceneError(path + ": cannot be read; check its permissions");
@@ -71,7 +71,7 @@ HeightTable read_height_png(const std::string& path) {
     throw SceneError(path + ": a PNG with colours or transparency; write it as greyscale of 8 or 16 bits");
   if (png_get_valid(image.png, image.info, PNG_INFO_tRNS) != 0)
     throw SceneError(path + ": a PNG with transparent pixels; fill them, or write a GeoTIFF with a no-data value");
-  check_height_points(path, columns, rows);
+  check_height_points(path, columns, rows, limit);
   const bool wide = png_get_bit_depth(image.png, image.info) == 16;
   const std::size_t line = static_cast<std::size_t>(columns) * (wide ? 2 : 1);
   image.bytes.resize(line * rows);

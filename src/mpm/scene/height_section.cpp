@@ -25,10 +25,12 @@ int read_cells(const Value& value) {
 
 /// Chooses the points along x and y at which an expression is evaluated: `cells` if given, else about the background
 /// grid's size.
-void choose_points(const Map& map, const SimulationDefinition& definition, bool in_plane, HeightGrid& grid) {
+void choose_points(const Map& map, const SimulationDefinition& definition, bool in_plane, const HeightLimit& limit,
+                   HeightGrid& grid) {
+  const double most = in_plane ? kMostCells : std::min<double>(kMostCells, std::sqrt(limit.points) - 1.0);
   const auto fine = [&](int axis) {
     const double cells = std::ceil((grid.high[axis] - grid.low[axis]) / definition.grid.cell[axis] - 1e-9);
-    return static_cast<int>(std::clamp(cells, 1.0, static_cast<double>(kMostCells)));
+    return static_cast<int>(std::clamp(cells, 1.0, most));
   };
   grid.columns = fine(0) + 1;
   if (!in_plane) grid.rows = fine(1) + 1;
@@ -42,6 +44,10 @@ void choose_points(const Map& map, const SimulationDefinition& definition, bool 
   if (counts.size() != 2) key->fail("write the number of cells along x and along y, [nx, ny]");
   grid.columns = read_cells(counts[0]) + 1;
   grid.rows = read_cells(counts[1]) + 1;
+  if (static_cast<double>(grid.columns) * grid.rows > limit.points) {
+    key->fail(fmt::format("{} x {} points are more than {:.0f}, the most that {} may have; write fewer cells",
+                          grid.columns, grid.rows, limit.points, limit.of));
+  }
 }
 
 void sample(const Value& value, HeightGrid& grid) {
@@ -72,16 +78,16 @@ void read_list(const Value& value, bool in_plane, HeightGrid& grid) {
 }
 
 /// Reads `file`, or text in `table`.
-HeightTable read_table(const Value& value, bool from_file) {
+HeightTable read_table(const Value& value, bool from_file, const HeightLimit& limit) {
   try {
     if (!from_file) {
       std::istringstream text(value.text());
-      return read_height_text(text, "its text");
+      return read_height_text(text, "its text", limit);
     }
     std::string path = value.text();
     if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
       path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
-    return read_height_file(resolve_resource(path));
+    return read_height_file(resolve_resource(path), limit);
   } catch (const Error& error) {
     value.fail(error.what());
   }
@@ -91,7 +97,11 @@ void take_table(const Value& value, const Map& map, bool in_plane, HeightTable& 
   const auto scale_key = map.find("scale"), offset_key = map.find("offset");
   if (!scale_key && table.of_white)
     value.fail("an image has no heights of its own; write scale, the height of white above black");
-  const double scale = scale_key ? scale_key->positive(kLength) : value.context().units.factor(kLength);
+  if (!scale_key && !table.unit_fault.empty())
+    value.fail(table.unit_fault + "; write scale, the length that its number 1 stands for");
+  // A scale that is written says what the numbers are, whatever the file says of them.
+  const double scale =
+      scale_key ? scale_key->positive(kLength) : table.unit.value_or(value.context().units.factor(kLength));
   const double offset = offset_key ? offset_key->number(kLength) : 0.0;
   if (in_plane && table.columns == 1) std::swap(table.columns, table.rows);
   if (in_plane && table.rows != 1) {
@@ -155,7 +165,8 @@ void read_extent(const Value& value, int axis, Vec2& low, Vec2& high) {
   if (!(high[axis] > low[axis])) value.fail("it ends where it begins or before; write [from, to]");
 }
 
-HeightGrid read_height_grid(const Map& map, const SimulationDefinition& definition, bool over_grid) {
+HeightGrid read_height_grid(const Map& map, const SimulationDefinition& definition, bool over_grid,
+                            const HeightLimit& limit) {
   const bool in_plane = planar(definition.geometry);
   if (const auto y = map.find("y"); y && in_plane)
     y->fail("a planar scene's height field has no end along y; leave it out");
@@ -174,7 +185,7 @@ HeightGrid read_height_grid(const Map& map, const SimulationDefinition& definiti
   HeightGrid grid;
   HeightTable table;
   if (is_table) {
-    table = read_table(source, from_file);
+    table = read_table(source, from_file, limit);
     take_table(source, map, in_plane, table, grid);
   } else if (!expression) {
     read_list(source, in_plane, grid);
@@ -184,7 +195,7 @@ HeightGrid read_height_grid(const Map& map, const SimulationDefinition& definiti
   if (expression && over_grid) table.span = {definition.grid.min.head<2>(), definition.grid.max.head<2>()};
   for (int axis = 0; axis < (in_plane ? 1 : 2); ++axis) read_place(map, source, axis, table, grid);
   if (expression) {
-    choose_points(map, definition, in_plane, grid);
+    choose_points(map, definition, in_plane, limit, grid);
     sample(source, grid);
   }
   return grid;
@@ -213,7 +224,7 @@ std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationD
   if (definition.geometry == GeometryKind::line) value.fail("a line has no height field; write plane, box or sphere");
   const Map map(value, height_keys(),
                 {{"bottom", "a rigid height field has no end downwards"}, {"within", "it is of deformable bodies"}});
-  const HeightGrid grid = read_height_grid(map, definition, false);
+  const HeightGrid grid = read_height_grid(map, definition, false, kToolLimit);
   check_holes(height_source(map), grid, grid.low, grid.high, "fill them");
   try {
     return make_height_field(grid);

@@ -1,7 +1,7 @@
 // Heights from GeoTIFF, through libtiff.
 //
 // Of the tags of GeoTIFF only those are read that say how large a map is and where it lies; of its keys, whether points
-// are pixels' centres or corners, and the unit of length.
+// are pixels' centres or corners, the unit of length, and that of heights.
 #include <fmt/format.h>
 #include <tiffio.h>
 
@@ -20,9 +20,13 @@ namespace mpm {
 namespace {
 
 constexpr std::uint32_t kPixelScaleTag = 33550, kTiepointTag = 33922, kKeysTag = 34735, kNoDataTag = 42113;
-// GeoTIFF 1.1 keys: kind of coordinates, whether a pixel is an area or a point, unit of length.
-constexpr int kModelKey = 1024, kRasterKey = 1025, kUnitKey = 3076;
+// GeoTIFF 1.1 keys: kind of coordinates, whether a pixel is an area or a point, unit of length; of heights, the
+// reference system and the unit.
+constexpr int kModelKey = 1024, kRasterKey = 1025, kUnitKey = 3076, kVerticalKey = 4096, kVerticalUnitKey = 4099;
 constexpr int kGeographic = 2, kGeocentric = 3, kPixelIsPoint = 2, kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;
+constexpr double kMetresAFoot = 0.3048, kMetresASurveyFoot = 1200.0 / 3937.0;
+// Heights in feet of the EPSG register: NGVD29 (ftUS), NAVD88 (ftUS), NAVD88 (ft).
+constexpr int kNgvd29SurveyFeet = 5702, kNavd88SurveyFeet = 6360, kNavd88Feet = 8228;
 
 /// Keeps libtiff's messages, which else go to the terminal, while it exists.
 class TiffMessages {
@@ -166,7 +170,7 @@ void read_tiff_span(TIFF* tiff, HeightTable& table) {
     table.no_span = fmt::format("its unit of length has the code {}, which is neither metre nor foot", unit);
     return;
   }
-  const double metres = unit == kFoot ? 0.3048 : unit == kSurveyFoot ? 1200.0 / 3937.0 : 1.0;
+  const double metres = unit == kFoot ? kMetresAFoot : unit == kSurveyFoot ? kMetresASurveyFoot : 1.0;
   // A tiepoint: column, row, height, and the place that they have. Pixels are areas unless a key says otherwise, and
   // the tiepoint is then one of corners. Without one, the origin is at the first point, or at the corner of the area
   // there.
@@ -180,9 +184,24 @@ void read_tiff_span(TIFF* tiff, HeightTable& table) {
   table.span = {place(0, table.rows - 1), place(table.columns - 1, 0)};
 }
 
+void read_height_unit(TIFF* tiff, HeightTable& table) {
+  const auto keys = values_of<std::uint16_t>(tiff, kKeysTag, TIFF_SHORT);
+  const int unit = key_of(keys, kVerticalUnitKey), system = key_of(keys, kVerticalKey);
+  if (unit == kMetre) {
+    table.unit = 1.0;
+  } else if (unit == kFoot || (unit == 0 && system == kNavd88Feet)) {
+    table.unit = kMetresAFoot;
+  } else if (unit == kSurveyFoot || (unit == 0 && (system == kNgvd29SurveyFeet || system == kNavd88SurveyFeet))) {
+    table.unit = kMetresASurveyFoot;
+  } else if (unit != 0) {
+    table.unit_fault =
+        fmt::format("its heights have the unit of code {} (VerticalUnits), which is neither metre nor foot", unit);
+  }
+}
+
 }  // namespace
 
-HeightTable read_height_tiff(const std::string& path) {
+HeightTable read_height_tiff(const std::string& path, const HeightLimit& limit) {
   const TiffMessages messages;
   const auto broken = [&]() {
     throw SceneError(fmt::format("{}: not a sound TIFF: {}; write it again", path, TiffMessages::last()));
@@ -193,7 +212,7 @@ HeightTable read_height_tiff(const std::string& path) {
   std::uint32_t columns = 0, rows = 0;
   TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &columns);
   TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &rows);
-  check_height_points(path, columns, rows);
+  check_height_points(path, columns, rows, limit);
   const TiffSample sample(tiff, path);
   HeightTable table;
   table.columns = static_cast<int>(columns);
@@ -205,7 +224,7 @@ HeightTable read_height_tiff(const std::string& path) {
   if (tiled) {
     TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &wide);
     TIFFGetField(tiff, TIFFTAG_TILELENGTH, &high);
-    check_height_points(path + ": its tiles", wide, high);
+    check_height_points(path + ": its tiles", wide, high, kGroundLimit);
   }
   const std::size_t line = wide * sample.bytes();
   if (static_cast<std::size_t>(tiled ? TIFFTileSize64(tiff) : TIFFScanlineSize64(tiff)) != line * high)
@@ -226,6 +245,7 @@ HeightTable read_height_tiff(const std::string& path) {
     }
   }
   read_tiff_span(tiff, table);
+  read_height_unit(tiff, table);
   return table;
 }
 

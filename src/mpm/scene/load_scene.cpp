@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm/math/input_file.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/scene_text.hpp"
@@ -39,17 +40,16 @@ bool is_file(const fs::path& path) {
 }
 
 std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file)
-    throw SceneError(fmt::format("{}: cannot be read; check that it is a file and its permissions", path.string()));
-  return text.str();
+  std::string text;
+  if (const std::string refused = read_input(path.string(), text); !refused.empty())
+    throw SceneError(fmt::format("{}: {}", path.string(), refused));
+  return text;
 }
 
 std::string first_comment(const fs::path& path) {
-  std::ifstream file(path);
+  std::ifstream file;
   std::string line;
+  if (!open_input(file, path.string()).empty()) return line;
   std::getline(file, line);
   const std::size_t begin = line.find_first_not_of("# ");
   return line.empty() || line[0] != '#' || begin == std::string::npos ? "" : line.substr(begin);
@@ -58,6 +58,9 @@ std::string first_comment(const fs::path& path) {
 fs::path find_scene(const std::string& name_or_path) {
   if (is_file(name_or_path)) return name_or_path;
   const bool is_path = name_or_path.find('/') != std::string::npos || fs::path(name_or_path).extension() == ".yaml";
+  std::error_code ignored;
+  if (is_path && fs::exists(name_or_path, ignored))
+    throw SceneError(fmt::format("{}: {}", name_or_path, refused_input(name_or_path)));
   if (is_path)
     throw SceneError(fmt::format("{}: no such scene file; check the path, or name a shipped scene", name_or_path));
   for (const fs::path& folder : scene_folders()) {

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm/math/input_file.hpp"
 #include "mpm/scene/auto_method.hpp"
 
 namespace mpm {
@@ -10,8 +11,8 @@ namespace mpm {
 MethodCostsFile load_method_costs(const std::string& path) {
   MethodCostsFile file;
   file.path = path;
-  std::ifstream stream(path);
-  if (!stream) {
+  std::ifstream stream;
+  if (!open_input(stream, path).empty()) {
     file.fault = path + " cannot be read; run scripts/methods, or name a table in MPM_ROS_METHOD_COSTS";
     return file;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/material_driver.hpp"
 #include "mpm/scene/units.hpp"
@@ -57,8 +58,9 @@ class PathFile {
   PathFile(const std::string& file, int steps) : file_(file), steps_(steps) {}
 
   StrainPath read() {
-    std::ifstream stream(file_);
-    if (!stream) throw PathError(fmt::format("{}: cannot be read; check the path and its permissions", file_));
+    std::ifstream stream;
+    if (const std::string refused = open_input(stream, file_); !refused.empty())
+      throw PathError(fmt::format("{}: {}", file_, refused));
     for (std::string text; std::getline(stream, text);) {
       ++line_;
       text = trimmed(text);

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm/math/input_file.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/source.hpp"
 
@@ -96,8 +97,8 @@ pace::ForceErrors load_force_errors(const Scene& scene) {
     std::error_code ignored;
     path = fs::is_regular_file(beside, ignored) ? beside.string() : installed_folder() + "/config/force_errors.csv";
   }
-  std::ifstream file(path);
-  if (!file) {
+  std::ifstream file;
+  if (!open_input(file, path).empty()) {
     throw SceneError(fmt::format(
         "{}: target: {} cannot be read; install it, or name a table of force errors in MPM_ROS_FORCE_ERRORS",
         scene.path, path));

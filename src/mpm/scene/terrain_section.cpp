@@ -102,7 +102,7 @@ Region read_terrain(const Value& value, const SimulationDefinition& definition) 
   if (definition.geometry == GeometryKind::line) value.fail("a line has no height field; write box");
   const bool in_plane = planar(definition.geometry);
   const Map map(value, height_keys({"bottom", "within"}));
-  HeightGrid grid = read_height_grid(map, definition, true);
+  HeightGrid grid = read_height_grid(map, definition, true, kGroundLimit);
   const Value source = height_source(map);
   Vec2 low, high;
   read_within(map, grid, in_plane, low, high);

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <utility>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm/math/output_file.hpp"
 
 namespace mpm {
@@ -41,10 +42,10 @@ hid_t type_of(StateArchive::Number number) {
 /// Recursive: an Hdf5Id closes within calls that hold it.
 std::recursive_mutex one_at_a_time;
 
-/// Why a file of that name cannot be opened so; empty if it can.
-std::string problem_with(const std::string& path, const char* mode) {
+/// Why no file of that name can be written; empty if it can.
+std::string problem_with(const std::string& path) {
   if (std::string refused = refused_output(path); !refused.empty()) return refused;  // a pipe would wait to be opened
-  std::FILE* file = std::fopen(path.c_str(), mode);
+  std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) return std::strerror(errno);
   std::fclose(file);
   return {};
@@ -77,7 +78,7 @@ Hdf5Silence::~Hdf5Silence() {
 
 Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  if (const std::string problem = problem_with(path, "wb"); !problem.empty()) {
+  if (const std::string problem = problem_with(path); !problem.empty()) {
     throw CheckpointError(
         fmt::format("checkpoint {}: cannot be written: {}; check its folder and the space on its disk", path, problem));
   }
@@ -144,9 +145,8 @@ void Hdf5Writer::fail() const { throw not_written_whole(path_, disk_.error); }
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  if (const std::string problem = problem_with(path, "rb"); !problem.empty()) {
-    throw CheckpointError(fmt::format("checkpoint {}: cannot be read: {}", path, problem));
-  }
+  if (const std::string refused = refused_input(path); !refused.empty())
+    throw CheckpointError(fmt::format("checkpoint {}: {}", path, refused));
   if (H5Fis_hdf5(path.c_str()) <= 0) {
     throw CheckpointError(fmt::format(
         "checkpoint {}: it is no HDF5 file; name one that run_scene --checkpoint or save_checkpoint has written",

@@ -1,8 +1,11 @@
 // Thin tools of a definition: what becomes of the material on their two sides.
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "mpm/contact/tool_sides.hpp"
 #include "mpm/mechanics/mass_places.hpp"
+#include "mpm/simulation/tool_size.hpp"
 #include "shipped_modules.hpp"
 
 namespace mpm {
@@ -40,7 +43,11 @@ void add_tool_sides(RunParts& parts) {
   if (!parts.map.divisions().empty()) {
     sides = &parts.modules.add(std::make_unique<ToolSides>(parts.layout(), parts.map, parts.sets, parts.threads));
   }
-  for (const RigidBody& body : parts.bodies) look_at(body, parts, sides);
+  for (const RigidBody& body : parts.bodies) {
+    if (std::string doubt = size_doubt(body.definition(), definition); !doubt.empty())
+      parts.warnings.push_back(std::move(doubt));
+    look_at(body, parts, sides);
+  }
   if (sides == nullptr) return;
   parts.sides = sides;
   parts.modules.add(std::make_unique<SideGlue>(*sides, parts.fields));

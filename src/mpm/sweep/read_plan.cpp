@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm/scene/reader.hpp"
 #include "mpm/sweep/plan.hpp"
 #include "plan_values.hpp"
@@ -169,13 +168,10 @@ class PlanReader {
 Plan parse_plan(const std::string& text, const std::string& label) { return PlanReader(text, label).read(); }
 
 Plan read_plan(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  std::error_code ignored;
-  if (!file || fs::is_directory(path, ignored))
-    throw SceneError(fmt::format("{}: the plan cannot be read; check the path", path));
-  return parse_plan(text.str(), path);
+  std::string text;
+  if (const std::string refused = read_input(path, text); !refused.empty())
+    throw SceneError(fmt::format("{}: the plan cannot be read: {}", path, refused));
+  return parse_plan(text, path);
 }
 
 }  // namespace mpm::sweep

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 
@@ -43,6 +44,8 @@ CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
   try {
     for (const std::string& part : parts_of(bag_path)) {
+      if (const std::string refused = mpm::refused_input(part); !refused.empty())
+        throw BagError(fmt::format("bag {}: {}", part, refused));
       rosbag::Bag bag(part, rosbag::bagmode::Read);
       rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::Command>()));
       for (const rosbag::MessageInstance& instance : view) {

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <utility>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/report/reindex.hpp"
@@ -66,7 +67,8 @@ std::string parent(const std::string& topic) { return topic.substr(0, topic.rfin
 }  // namespace
 
 bool is_bag(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file;
+  if (!mpm::open_input(file, path).empty()) return false;
   std::string begin(std::strlen(kBegin), ' ');
   return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kBegin;
 }
@@ -91,8 +93,7 @@ void RunBag::open() {
 
 bool RunBag::open_part(const std::string& path, bool first) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw BagError(path + ": no such file");
-  if (!std::filesystem::is_regular_file(path, error)) throw BagError(path + ": not a file; give a bag");
+  if (const std::string refused = mpm::refused_input(path); !refused.empty()) throw BagError(path + ": " + refused);
   if (std::filesystem::file_size(path, error) == 0) {
     if (!first) return false;
     throw BagError(path + ": an empty file, not a bag; was the recording stopped before it began?");
@@ -101,7 +102,6 @@ bool RunBag::open_part(const std::string& path, bool first) {
   try {
     bag->open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& problem) {
-    if (!std::ifstream(path)) throw BagError(path + ": cannot be read; check its permissions");
     if (!is_bag(path)) {
       throw BagError(fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path,
                                  problem.what()));

@@ -11,6 +11,7 @@
 #include "mpm/ranks/lists.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -70,7 +71,11 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
 
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
-  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
+  const auto read = [&] {
+    const NothingToLose reading;
+    return rerun ? recorded_scene(options, *rerun) : scene_of(options);
+  };
+  mpm::Scene scene = read();
   if (options.ranks && scene.target && !scene.target->chosen) {
     throw mpm::SceneError(fmt::format("{}: target: ranks would choose each for itself{}", scene.path, kAsOne));
   }

@@ -8,9 +8,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm_ros/sweep/study.hpp"
 
 namespace mpm_ros {
@@ -79,11 +78,9 @@ void write_whole(const std::string& path, const std::string& text) {
 }
 
 std::optional<std::string> read_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) return std::nullopt;
-  return text.str();
+  std::string text;
+  if (!mpm::read_input(path, text).empty()) return std::nullopt;
+  return text;
 }
 
 std::optional<FileLock> FileLock::try_take(const std::string& path) {

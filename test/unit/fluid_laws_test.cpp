@@ -69,6 +69,18 @@ TEST(NewtonianFluid, PartsWithoutTension) {
   EXPECT_NEAR(pressure(spray), 1e6 / 7.0 * (std::pow(0.999, -7.0) - 1.0), 1e-9 * 1e6);
 }
 
+// What has parted is liquid of its initial density in empty space: the mean shear stress falls with the liquid's part
+// of the volume, 1 / J. With tension the fluid fills all of its volume, and the stress is mu gamma_dot.
+TEST(NewtonianFluid, ResistsShearByTheVolumeOfTheLiquid) {
+  const double rate = 20.0, viscosity = 0.3, dt = 1e-6;
+  for (const bool tension : {false, true}) {
+    MaterialPoint drop = fluid(1e6, 7.0, viscosity, tension);
+    compress(drop, 4.0, 10);
+    drop.advance({0, rate * dt, 0, 0, 0, 0, 0, 0, 0}, dt);
+    EXPECT_NEAR(drop.cauchy().xy, viscosity * rate / (tension ? 1.0 : 4.0), 1e-9);
+  }
+}
+
 // Small compression: p^2 / (2 K rho0), to third order in the strain.
 TEST(NewtonianFluid, StoresTheEnergyOfAQuadraticSpring) {
   MaterialPoint water = fluid(2.2e9, 7.0, 0.0);

@@ -168,7 +168,7 @@ class WeightMaker {
   }
 
  private:
-  static constexpr double kLeastMoment = 1e-10;  ///< [cells^2]
+  static constexpr double kLeastMoment = Shape<W>::kFoldsAtWalls ? 0.1 : 1e-10;  ///< [cells^2]
   template <Beside What, class Along>
   [[gnu::always_inline]] static void keep(Along& shape, W offset, double cell, int k, int q, Made& to) {
     if constexpr (What == Beside::moment || What == Beside::affine) {
@@ -201,10 +201,11 @@ class WeightMaker {
       second += shape.g[n] * arm;
     }
     if (!over_second) return;
-    // A spline folded at a wall has no second moment on the wall, where all weight is the wall node's and moments are
-    // zero, and a negative one beyond it.
-    const W least(kLeastMoment * cell * cell);
-    second = select(second < W(0.0), min(second, -least), max(second, least));
+    // A spline folded at a wall has no second moment on the wall, where all weight is the wall node's, and a negative
+    // one beyond it. What a particle keeps is the moment B = C D of its velocity gradient C, so C would grow without
+    // bound where a particle that no neighbour holds comes to a wall: D shrinks from step to step, and B does not. From
+    // a ninth of a cell on D therefore falls no more, and C fades with B there.
+    second = max(second, W(kLeastMoment * cell * cell));
     for (int n = 0; n < kNodes; ++n) shape.g[n] /= second;
   }
 };

@@ -1,9 +1,11 @@
 // Weakly compressible Newtonian fluid: pressure by Tait's equation p = K/n (J^-n - 1), n = 7 for water, 1 for a linear
 // law, and viscous stress 2 mu dev(d), where d is the rate of deformation over the step. Of the deformation gradient
 // only J is stored. Without tension (a free surface) p is cut off at zero: spray expands freely, and carries pressure
-// again only at its initial density. Viscous work counts as dissipated. Weak: J of each particle is an integral of grad
-// v and drifts from the particles' real spacing in long sloshing; a lower bulk modulus than the real one is usual, and
-// the user must keep its Mach number small. Source: Monaghan (1994), J. Comput. Phys. 110 (Tait's form).
+// again only at its initial density. What has parted (J > 1) is liquid of its initial density with empty space around
+// it, and viscous stress acts on the liquid's volume alone: else a drop that flies apart would get ever more viscous.
+// Viscous work counts as dissipated. Weak: J of each particle is an integral of grad v and drifts from the particles'
+// real spacing, which mechanics/volume_correction.hpp mends; a lower bulk modulus than the real one is usual, and the
+// user must keep its Mach number small. Source: Monaghan (1994), J. Comput. Phys. 110 (Tait's form).
 #pragma once
 
 #include <cmath>
@@ -31,7 +33,7 @@ class NewtonianFluid : public LawTraits {
     const T power = whole_exponent_ > 0 ? whole_power(inverse, whole_exponent_) : pow(inverse, T(exponent_));
     T pressure = T(bulk_ / exponent_) * (power - T(1));
     if (!tension_) pressure = max(pressure, T(0));
-    const T volume = step.j * T(1.0 / density_);  // [m^3/kg]
+    const T volume = liquid(step.j) * T(1.0 / density_);  // [m^3/kg]
     if (viscosity_ == 0.0) {
       tau = Symmetric::isotropic(-pressure * volume);
       return;
@@ -40,7 +42,7 @@ class NewtonianFluid : public LawTraits {
     const T twice_viscosity = T(2.0 * viscosity_) / step.dt;
     const T mean = T(1.0 / 3.0) * trace(strain);
     tau = scale_shift(strain, twice_viscosity * volume, -(twice_viscosity * mean + pressure) * volume);
-    const T mean_volume = T(0.5 / density_) * (step.j_old + step.j);
+    const T mean_volume = T(0.5 / density_) * (liquid(step.j_old) + liquid(step.j));
     history[kPlasticWork] += twice_viscosity * mean_volume * (squared_norm(strain) - T(3) * mean * mean);
   }
 
@@ -57,7 +59,7 @@ class NewtonianFluid : public LawTraits {
   /// stands in, because the fluid may close again.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric&, T j) const {
-    const T closed = tension_ ? j : select(j > T(1), T(1), j);
+    const T closed = liquid(j);
     const T power = whole_exponent_ == 1  ? T(1)
                     : whole_exponent_ > 1 ? whole_power(T(1) / closed, whole_exponent_ - 1)
                                           : pow(closed, T(1.0 - exponent_));
@@ -66,11 +68,17 @@ class NewtonianFluid : public LawTraits {
   /// Diffusivity of longitudinal motion, the largest [m^2/s].
   template <class T>
   T diffusivity(T j) const {
-    return T(4.0 / 3.0 * viscosity_ / density_) * j;
+    return T(4.0 / 3.0 * viscosity_ / density_) * liquid(j);
   }
   double density() const { return density_; }
 
  private:
+  /// Volume of the liquid over its initial one.
+  template <class T>
+  T liquid(T j) const {
+    return tension_ ? j : select(j > T(1), T(1), j);
+  }
+
   static constexpr double kMostProducts = 64.0;  ///< largest exponent whose power is computed by products
 
   double density_, bulk_, exponent_, viscosity_;

@@ -21,6 +21,7 @@ std::vector<std::pair<std::string, std::string>> numbers_of_cracks() {
 const std::vector<ShippedModules>& shipped_modules() {
   static const std::vector<ShippedModules> kList = {
       {add_stress_average},
+      {add_volume_correction},
       {add_periodic},
       {add_leaving},
       {add_axis},

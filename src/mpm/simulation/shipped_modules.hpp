@@ -34,6 +34,7 @@ void add_periodic(RunParts& parts);
 void add_leaving(RunParts& parts);
 void add_axis(RunParts& parts);
 void add_stress_average(RunParts& parts);
+void add_volume_correction(RunParts& parts);
 void add_damping(RunParts& parts);
 void add_rigid_motion(RunParts& parts);
 void add_tool_sides(RunParts& parts);

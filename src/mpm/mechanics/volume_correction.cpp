@@ -1,0 +1,199 @@
+#include "mpm/mechanics/volume_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/math/dimension.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kTurnOf = 6.283185307179586;  ///< a ring's circumference over its radius
+constexpr double kAlmostAll = 1.0 - 1e-6;  ///< of the weights: above what rounding leaves of all in single precision
+constexpr double kLeastShare = 1e-3;       ///< of a cell: less is a node beyond the domain
+
+/// Integral of a spline over the cells beyond the node next to its middle one, which a wall there cuts off [cells].
+double beyond_next(ShapeKind shape) {
+  if (shape == ShapeKind::bspline2) return 1.0 / 48.0;
+  return shape == ShapeKind::bspline3 ? 1.0 / 24.0 : 0.0;
+}
+
+}  // namespace
+
+VolumeCorrection::VolumeCorrection(std::vector<Body> bodies, GeometryKind geometry, ShapeKind shape, int threads,
+                                   std::unique_ptr<ScalarTransfer> transfer, double cell)
+    : bodies_(std::move(bodies)),
+      geometry_(geometry),
+      shape_(shape),
+      threads_(threads),
+      transfer_(std::move(transfer)),
+      cell_(cell),
+      numbers_(bodies_.size()),
+      one_(1, nodes_of_block(dimensions(geometry))) {}
+
+void VolumeCorrection::make_room() {
+  for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    const std::size_t size = bodies_[s].set->id.size();
+    Numbers& of = numbers_[s];
+    const auto room = [&](PaddedArray<double>& array) {
+      if (array.size() != size) array.assign(size, 0.0);
+    };
+    room(of.volume);
+    if (bodies_[s].fluid == nullptr) continue;
+    for (PaddedArray<double>* array : {&of.fullness, &of.full, &of.squares}) room(*array);
+    for (int k = 0; k < dimensions(geometry_); ++k) room(of.slope[k]);
+    if (axisymmetric(geometry_)) room(of.slope[2]);
+    sums_.reserve(size);
+  }
+}
+
+template <class Geometry>
+void VolumeCorrection::find_volumes() {
+  for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    const Body& body = bodies_[s];
+    PaddedArray<double>& volume = numbers_[s].volume;
+    const double start = 1.0 / body.density;
+    if (body.fluid != nullptr) {
+      std::fill(volume.begin(), volume.end(), start);
+      continue;
+    }
+    const int count = body.set->awake();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int p = 0; p < count; ++p) volume[p] = start * determinant(Geometry::load_matrix(body.set->f, p));
+  }
+}
+
+double VolumeCorrection::share_along(const Grid& grid, int axis, int node) const {
+  const GridLayout& layout = grid.layout;
+  if (layout.periodic(axis)) return 1.0;
+  const int last = layout.last_node(axis), from_face = std::min(node, last - node);
+  if (axis == 0 && axisymmetric(geometry_)) {
+    if (from_face < 0) return 0.0;
+    // Of the hat function: integral of r over a cell's half, in cells.
+    const double radius = node + layout.origin(0) * layout.inverse_cell(0);
+    const double inner = node > 0 ? radius / 2 - 1.0 / 6.0 : 0.0, outer = node < last ? radius / 2 + 1.0 / 6.0 : 0.0;
+    return kTurnOf * layout.cell(0) * (inner + outer);
+  }
+  const double beyond = beyond_next(shape_);
+  const bool folds = grid.has_wall[2 * axis + (node > last - node ? 1 : 0)];
+  if (from_face > 1) return 1.0;
+  if (from_face == 1) return folds ? 1.0 - 2.0 * beyond : 1.0 - beyond;
+  if (from_face == 0) return folds ? 0.5 + 2.0 * beyond : 0.5;
+  return from_face == -1 && !folds ? beyond : 0.0;
+}
+
+double VolumeCorrection::share(const Grid& grid, const std::array<int, 3>& node) const {
+  double share = 1.0;
+  for (int k = 0; k < grid.layout.dim(); ++k) share *= share_along(grid, k, node[k]);
+  return share;
+}
+
+void VolumeCorrection::find_fullness(const Fields& fields) {
+  const int count = static_cast<int>(fields.size()), nodes = fields.front()->layout.nodes_per_block();
+  while (static_cast<int>(volume_.size()) < count) {
+    volume_.emplace_back(1, nodes);
+    fullness_.emplace_back(1, nodes);
+  }
+  given_.assign(bodies_.size(), {});
+  for (std::size_t s = 0; s < bodies_.size(); ++s) given_[s][0] = numbers_[s].volume.data();
+  for (int f = 0; f < count; ++f) transfer_->spread(f, given_, ScalarTransfer::Weight::mass, volume_[f]);
+  for (int f = 0; f < count; ++f) {
+    const BlockTable& blocks = fields[f]->blocks;
+    fullness_[f].resize(blocks.size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int b = 0; b < blocks.size(); ++b) {
+      double* held = fullness_[f].block(b);
+      std::copy_n(volume_[f].block(b), nodes, held);
+      for (int g = 0; g < count; ++g) {
+        const int there = g == f ? -1 : fields[g]->blocks.find(blocks.key(b));
+        for (int n = 0; n < nodes && there >= 0; ++n) held[n] += volume_[g].block(there)[n];
+      }
+      for (int n = 0; n < nodes; ++n) {
+        const double room = share(*fields[f], fields[f]->layout.node(blocks.block(b), n));
+        held[n] = room > kLeastShare ? held[n] / (room * cell_) : 1.0;
+      }
+    }
+  }
+}
+
+template <class Number>
+const ScalarTransfer::Taken& VolumeCorrection::fluids_take(Number&& number) {
+  takers_.assign(bodies_.size(), {});
+  for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    if (bodies_[s].fluid != nullptr) number(numbers_[s], takers_[s]);
+  }
+  return takers_;
+}
+
+void VolumeCorrection::gather(Fields& fields) {
+  const int nodes = fields.front()->layout.nodes_per_block(), dim = fields.front()->layout.dim();
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    transfer_->gather(static_cast<int>(f), fullness_[f],
+                      fluids_take([](Numbers& of, auto& to) { to[0] = of.fullness.data(); }));
+  }
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    double* full = fullness_[f].data();
+    std::transform(full, full + fullness_[f].size(), full, [](double c) { return c < kFull ? 0.0 : 1.0; });
+    transfer_->gather(static_cast<int>(f), fullness_[f],
+                      fluids_take([](Numbers& of, auto& to) { to[0] = of.full.data(); }));
+  }
+  for (Numbers& of : numbers_) std::fill(of.squares.begin(), of.squares.end(), 0.0);
+  for (int c = 0; c < dim; ++c) {
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const Grid& grid = *fields[f];
+      one_.resize(grid.blocks.size());
+      for (int b = 0; b < grid.blocks.size(); ++b) {
+        std::copy_n(grid.velocity.block(b) + c * nodes, nodes, one_.block(b));
+      }
+      transfer_->gradient(static_cast<int>(f), one_, fluids_take([&](Numbers& of, auto& to) {
+                            for (int k = 0; k < dim; ++k) to[k] = of.slope[k].data();
+                          }));
+    }
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+      Numbers& of = numbers_[s];
+      const int count = bodies_[s].fluid != nullptr ? bodies_[s].set->awake() : 0;
+#pragma omp parallel for schedule(static) num_threads(threads_)
+      for (int p = 0; p < count; ++p) {
+        for (int k = 0; k < dim; ++k) of.squares[p] += of.slope[k][p] * of.slope[k][p];
+      }
+    }
+  }
+}
+
+template <class Geometry>
+double VolumeCorrection::correct(const Body& body, const Numbers& of) {
+  ParticleSet& set = *body.set;
+  return sums_.over(static_cast<std::size_t>(set.awake()), threads_, [&](std::size_t i, double& lost) {
+    const int p = static_cast<int>(i);
+    const auto f = Geometry::load_matrix(set.f, p);
+    const double j = determinant(f), excess = std::log(j * of.fullness[p]);
+    if (!(std::isfinite(excess)) || (excess < 0.0 && of.full[p] < kAlmostAll)) return;
+    const double corrected = j * std::exp(excess * std::expm1(-kRate * waited_ * std::sqrt(of.squares[p])));
+    const auto now = Geometry::dilatation(corrected);
+    std::array<double, Geometry::kMatrix> components;
+    std::array<double*, Geometry::kMatrix> places;
+    for (int c = 0; c < Geometry::kMatrix; ++c) places[c] = &components[c];
+    Geometry::store_matrix(now, places, 0);
+    for (int c = 0; c < Geometry::kMatrix; ++c) set.f[c].set(p, components[c]);
+    const auto tau = Geometry::load_symmetric(set.tau, p);
+    lost += set.mass_of(p) * (body.fluid->elastic_energy(f, tau, j) - body.fluid->elastic_energy(now, tau, corrected));
+  });
+}
+
+void VolumeCorrection::momentum_gathered(StepContext& context) {
+  waited_ += context.dt;
+  if (++steps_ % kEvery != 0) return;
+  make_room();
+  with_geometry(geometry_, [&](auto kind) {
+    using Geometry = decltype(kind);
+    find_volumes<Geometry>();
+    find_fullness(context.fields);
+    gather(context.fields);
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+      if (bodies_[s].fluid != nullptr) taken_ += correct<Geometry>(bodies_[s], numbers_[s]);
+    }
+  });
+  waited_ = 0.0;
+}
+
+}  // namespace mpm

@@ -1,0 +1,31 @@
+// The fluids' volume correction as a module.
+#include <memory>
+#include <variant>
+
+#include "mpm/mechanics/volume_correction.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "shipped_modules.hpp"
+
+namespace mpm {
+
+void add_volume_correction(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  std::vector<VolumeCorrection::Body> bodies;
+  bool any = false;
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    const auto* fluid = std::get_if<NewtonianFluid>(&parts.laws[s]);
+    const double density = std::visit([](const auto& law) { return law.density(); }, parts.laws[s]);
+    bodies.push_back({&parts.sets[s], fluid, density});
+    any = any || fluid != nullptr;
+  }
+  if (!any) return;
+  double cell = 1.0;
+  for (int k = 0; k < parts.layout().dim(); ++k) cell *= parts.layout().cell(k);
+  if (planar(definition.geometry)) cell *= definition.thickness;
+  if (definition.geometry == GeometryKind::line) cell *= definition.area;
+  const ShapeKind shape = definition.method.shape;
+  parts.modules.add(std::make_unique<VolumeCorrection>(std::move(bodies), definition.geometry, shape, parts.threads,
+                                                       parts.make_transfer(shape), cell));
+}
+
+}  // namespace mpm

@@ -76,6 +76,13 @@ TEST(NodeParameters, MisspeltNamesAreWarnedOf) {
   EXPECT_NE(warnings[0].find("'pacing'"), std::string::npos);
 }
 
+// As tf had it, tf2's predecessor; tf2 refuses the name.
+TEST(NodeParameters, ASlashBeforeTheWorldFrameIsLeftOut) {
+  std::vector<std::string> warnings;
+  EXPECT_EQ(read_parameters(with("world_frame", "/map"), warnings).world_frame, "map");
+  EXPECT_NE(error_of(with("world_frame", "/")).find("~world_frame is empty"), std::string::npos);
+}
+
 TEST(NodeParameters, FieldsAreAListOrOneText) {
   XmlRpc::XmlRpcValue list;
   list[0] = "vx";

@@ -16,6 +16,7 @@
 
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/report/report.hpp"
+#include "mpm_ros/run/run_scene_options.hpp"
 #include "test_files.hpp"
 
 namespace mpm_ros {
@@ -73,6 +74,12 @@ TEST_F(RunScene, WritesASummaryWithItsKeysAndTheRightNumbers) {
   EXPECT_NEAR(root["energy"]["start"]["potential"].get<double>(), 24.525, 1e-11);
   EXPECT_LT(root["momentum_error"].get<double>(), 1e-10);
   EXPECT_EQ(root["state_hash"].get<std::string>().size(), 16U);
+}
+
+TEST_F(RunScene, SaysWhereThreadsAreMoreThanTheMachineHas) {
+  EXPECT_EQ(thread_warning(0), "");
+  EXPECT_EQ(thread_warning(1), "");
+  EXPECT_EQ(thread_warning(1 << 20).find("1048576 threads on "), 0U) << thread_warning(1 << 20);
 }
 
 TEST_F(RunScene, SaysOnWhatItRunsAndRan) {

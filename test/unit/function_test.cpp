@@ -87,6 +87,40 @@ TEST(Function, NamesAnUnknownVariableWithAHint) {
   EXPECT_NE(refusal("q + 1").find("unknown name 'q'; an expression may use t, x, y, z"), std::string::npos);
 }
 
+// The parser's own '=' assigns to t, and all later values of the function are others.
+TEST(Function, RefusesToAssign) {
+  for (const char* bad : {"t=1 ? -0.1 : 0.3", "x=y", "y = 3", "t==1 ? x=2 : 0", "(t = 2) + 1"}) {
+    EXPECT_NE(refusal(bad).find("'=' would assign, which no expression may; write '=='"), std::string::npos) << bad;
+  }
+  const Function f = Function::parse("t==1 ? -0.1 : x<=2 && x>=1 && y!=0 ? 7 : 0.3");
+  EXPECT_EQ(f(1.0), -0.1);
+  EXPECT_EQ(f(2.0, Vec3(1.5, 1, 0)), 7.0);
+  EXPECT_EQ(f(2.0), 0.3);
+}
+
+TEST(Function, UsesConstantsByName) {
+  const NamedConstants constants = {{"slip", 0.2}, {"v", 0.4}};
+  const Function f = Function::parse("v*(1 - slip)*t", {}, FunctionPlaces::present, constants);
+  EXPECT_NEAR(f(2.0), 0.64, 1e-15);
+  EXPECT_EQ(f.own_copy()(2.0), f(2.0));
+  EXPECT_TRUE(f.uses_time());
+  EXPECT_FALSE(f.uses_place());
+  EXPECT_TRUE(Function::parse("x + t").uses_place(0));
+  EXPECT_FALSE(Function::parse("x + t").uses_place(1));
+  try {
+    Function::parse("slib*t", {}, FunctionPlaces::present, constants);
+    FAIL();
+  } catch (const FunctionError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("unknown name 'slib'; did you mean 'slip'?"), std::string::npos) << text;
+    EXPECT_NE(text.find("the scene's constants slip, v"), std::string::npos) << text;
+  }
+  EXPECT_EQ(meaning_in_expressions("t"), "the time");
+  EXPECT_EQ(meaning_in_expressions("sin"), "a function");
+  EXPECT_EQ(meaning_in_expressions("slip"), "");
+  EXPECT_EQ(names_in_expression("2e3*a1 + sin(_b)*1.5e-2-e"), (std::vector<std::string>{"a1", "sin", "_b", "e"}));
+}
+
 TEST(Function, RefusesWhatDoesNotParse) {
   for (const char* bad : {"2*(t", "", "t +", "1, 2", "sin()", "\"t\"", "t ? 1", "= 3"}) {
     EXPECT_NE(refusal(bad), "") << bad;

@@ -94,6 +94,29 @@ TEST(Pace, TimeAndPaceFollowFromAStep) {
   EXPECT_EQ(duration_text(9000.0), "2.5 h");
 }
 
+// What was timed stands for the run where it is half of it; else it is said what it does not know.
+TEST(Pace, AForecastSaysWhatItDoesNotKnow) {
+  Forecast forecast;
+  forecast.cost = {0.004, 2000.0, 70};
+  forecast.simulated = 1.5;  // 3000 steps
+  forecast.tools = forecast.sleeps = true;
+  const auto says = [&](const char* what) { return forecast_text(forecast).find(what) != std::string::npos; };
+  EXPECT_FALSE(says("no tool touched"));
+  EXPECT_TRUE(says("hardly anything slept when its steps were timed, and what falls asleep makes it faster"));
+  forecast.cost.touched = false;
+  EXPECT_TRUE(says("; no tool touched when its steps were timed, and contact"));
+  forecast.cost.awake = 0.2;  // an eighth of real time with a fifth awake
+  EXPECT_TRUE(says("; 80 % of the material slept when its steps were timed, and what wakes costs more: down to 0.025 of"));
+  forecast.cost.steps = 1500;
+  EXPECT_TRUE(forecast.of_run());
+  EXPECT_FALSE(says("slept") || says("touched"));
+  // The timer sees both: a tool above a block touches it not.
+  const Timed timed = time_scene(load_scene("foam_probe"), 3 * MadeUpClock::kTick);
+  ASSERT_TRUE(timed.cost);
+  EXPECT_FALSE(timed.cost->touched);
+  EXPECT_EQ(timed.cost->awake, 1.0);
+}
+
 /// A solid with 16 steps in a sync period of 10 ms, at cfl 0.45 with USAVG, that runs at an eighth of real time.
 struct Case {
   SimulationDefinition definition;
@@ -200,7 +223,7 @@ class KeptCostsTest : public ::testing::Test {
   }
   ~KeptCostsTest() override { fs::remove_all(folder_); }
   std::string file() const { return (folder_ / "made" / "on_demand.csv").string(); }
-  const KeptCost cost_{{0.0123, 1400.0, 70}, 2, 41600, 1'000'000};
+  const KeptCost cost_{{0.0123, 1400.0, 70, 0.25, false}, 2, 41600, 1'000'000};
   fs::path folder_;
 };
 
@@ -213,6 +236,8 @@ TEST_F(KeptCostsTest, AreFoundForADay) {
   EXPECT_EQ(found->cost.step_seconds, 0.0123);
   EXPECT_EQ(found->cost.steps_per_second, 1400.0);
   EXPECT_EQ(found->cost.steps, 70U);
+  EXPECT_EQ(found->cost.awake, 0.25);
+  EXPECT_FALSE(found->cost.touched);
   EXPECT_EQ(found->threads, 2);
   EXPECT_EQ(found->particles, 41600U);
   EXPECT_FALSE(costs.find("a", 1'000'000 + 86'401));

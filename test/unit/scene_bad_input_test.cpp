@@ -97,8 +97,7 @@ TEST(SceneBadInput, UnknownWordsSuggestTheNearest) {
   expect_refused(20, "    material: sofd", "bodies.block.material: no material 'sofd'; did you mean 'soft'?");
   expect_refused(30, "output: {particle_fields: [vxx]}",
                  "output.particle_fields.0: no particle field 'vxx'; did you mean");
-  expect_refused(31, "metrics: {m: {mean: vx, of: blok}}",
-                 "metrics.m.of: no deformable body 'blok'; did you mean 'block'?");
+  expect_refused(31, "metrics: {m: {mean: vx, of: blok}}", "metrics.m.of: no body 'blok'; did you mean 'block'?");
   expect_refused(29, "boundaries: {all: sticky}",
                  "boundaries.all: 'sticky' is not known; write one of none, fixed, slip");
 }
@@ -106,7 +105,7 @@ TEST(SceneBadInput, UnknownWordsSuggestTheNearest) {
 TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(28, "transport: {}", "transport: names no quantity;");
   expect_refused(28, "cracks: {}", "cracks: a crack is a line in a plane;");
-  expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: not built yet; use box");
+  expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: 'mesh' is no key here; use box");
 }
 
 TEST(SceneBadInput, WrongUnitsAndValues) {
@@ -191,6 +190,31 @@ TEST(SceneBadInput, TextThatIsNotAScene) {
   EXPECT_NE(refusal("[1, 2]: 3\n").find("a key must be a word"), std::string::npos);
 }
 
+// What looks right and is not: each error says which character it is.
+TEST(SceneBadInput, CharactersThatLookLikeOthers) {
+  const std::string good = text_of(kLines);
+  const auto found = [&](const std::string& set) { return refusal(good, {set}); };
+  EXPECT_NE(found("gravity=[0, 0, \u22129.81]").find("it has a Unicode minus (U+2212); write '-' in its place"),
+            std::string::npos);
+  EXPECT_NE(found("time.end=2\u00a0s").find("it has a no-break space (U+00A0), which looks like a space"),
+            std::string::npos);
+  const std::string key = refusal(good + "grid\u200b: {cell: 1}\n");
+  EXPECT_NE(key.find("it has a zero-width space (U+200B), which is not seen; delete it"), std::string::npos) << key;
+  EXPECT_NE(refusal(good, {"materials.0.<<={young: 1}"}).find("merge keys are not understood; write the keys out"),
+            std::string::npos);
+  // Where several laws have a key it is listed once.
+  const std::string listed = refusal(good, {"materials.0.qqqqqq=1"});
+  EXPECT_EQ(listed.find("young"), listed.rfind("young")) << listed;
+}
+
+TEST(SceneBadInput, AWrongShapeListsAll) {
+  expect_refused(25, "    shape: {boks: {}}",
+                 "rigid_bodies.ball.shape.boks: unknown key 'boks'; did you mean 'box'? write one of mesh, urdf, box, "
+                 "sphere, cylinder, capsule, plane, height_field, polygon, revolved, cone, ring");
+  expect_refused(21, "    shape: {boks: {}}",
+                 "bodies.block.shape.boks: ", "write one of box, sphere, cylinder, height_field");
+}
+
 TEST(SceneBadInput, FilesThatAreNotThere) {
   const auto why = [](const std::string& name) {
     try {
@@ -200,10 +224,21 @@ TEST(SceneBadInput, FilesThatAreNotThere) {
     }
     return std::string();
   };
-  EXPECT_EQ(why("no/such/scene.yaml"),
-            "no/such/scene.yaml: no such scene file; check the path, or name a shipped scene");
+  const std::string folder = std::filesystem::current_path().string();
+  const std::string lost = why("no/such/scene.yaml"), home = why("~/scene.yaml");
+  EXPECT_EQ(lost.find("no/such/scene.yaml: no such scene file in " + folder + "/no/such; write an absolute path"), 0U)
+      << lost;
+  EXPECT_NE(home.find("~ is not the home folder here"), std::string::npos) << home;
+  EXPECT_NE(why("/no/such/scene.yaml").find("in /no/such; check the path, or name"), std::string::npos);
   EXPECT_EQ(why("eastic_block"), "eastic_block: no shipped scene of that name; did you mean 'elastic_block'?");
-  expect_refused(25, "    shape: {mesh: {file: nowhere.stl}}", "rigid_bodies.ball.shape.mesh.file: ", "nowhere.stl");
+  expect_refused(25, "    shape: {mesh: {file: nowhere.stl}}",
+                 "rigid_bodies.ball.shape.mesh.file: nowhere.stl: no such file in " + folder + ";");
+  expect_refused(25, "    shape: {mesh: {file: ~/tool.stl}}", "rigid_bodies.ball.shape.mesh.file: ~/tool.stl: no such",
+                 "~ is not the home folder");
+  expect_refused(25, "    shape: {mesh: {file: \"file://tool.stl\"}}",
+                 "rigid_bodies.ball.shape.mesh.file: file://tool.stl: file:// takes an absolute path");
+  expect_refused(25, "    shape: {mesh: {file: \"file:///no/tool.stl\"}}",
+                 "rigid_bodies.ball.shape.mesh.file: ", "no such file in /no;");
   expect_refused(25, "    shape: {mesh: {file: \"package://no_such_package/a.stl\"}}",
                  "rigid_bodies.ball.shape.mesh.file: ", "no_such_package");
 }

@@ -104,7 +104,7 @@ TEST(SceneInitial, IsRefusedWhenWrong) {
       at + ": initial stress of body 'bed': expression '1/(x-0.025)' is not finite at t = 0 s, place (0.025, ");
   expect_refused(scene("initial: {temperature: 300 K}"),
                  at + ".temperature: material 'sand' (drucker_prager) has no temperature; leave it out");
-  expect_refused(scene("initial: {pore_pressure: 3}"), at + ".pore_pressure: not built yet;");
+  expect_refused(scene("initial: {pore_pressure: 3}"), at + ".pore_pressure: 'pore_pressure' is no key here;");
   expect_refused(
       scene("initial: {stress: {zz: -1e3}}"),
       "body 'bed', initial state at (0.025, 0, 0.025) m: material 'sand' (drucker_prager) cannot carry the stress");

@@ -57,7 +57,7 @@ TEST(SceneLoads, AreRefusedWhenWrong) {
   expect_refused("loads: [{body_force: {}}]",
                  "bad.yaml:5: loads.0.body_force: the key 'acceleration' is missing; add it");
   const std::string at = "bad.yaml:5: loads.0.body_force.";
-  expect_refused("loads: [{body_force: {force: [0, 1]}}]", at + "force: not built yet; write acceleration");
+  expect_refused("loads: [{body_force: {force: [0, 1]}}]", at + "force: 'force' is no key here; write acceleration");
   expect_refused("loads: [{body_force: {acceleration: [0, 0, 1]}}]",
                  at + "acceleration: found 3 components; write two components, [x, z]");
   expect_refused("loads: [{body_force: {acceleration: [0, 3 N]}}]",

@@ -331,7 +331,7 @@ TEST(SceneMaterials, ALawIsNamed) {
   EXPECT_EQ(refusal("density: 1000, law: j2_plastic"),
             ".law: 'j2_plastic' is not known; did you mean 'j2_plasticity'?");
   EXPECT_EQ(refusal("density: 1000, law: rigid"),
-            ".law: 'rigid' is not built yet; a rigid body is not a material: write it under rigid_bodies");
+            ".law: 'rigid' is no word here; a rigid body is not a material: write it under rigid_bodies");
 }
 
 }  // namespace scene_materials_test

@@ -258,6 +258,40 @@ TEST(SceneTarget, ASymmetricSceneIsHalvedAtTheMiddleOfItsGrid) {
   EXPECT_NE(refused("target.symmetric=y").find("target.symmetric: 'y' is not known"), std::string::npos);
 }
 
+// A half of what is carried, held, fed or drained on one side would be doubled or left out.
+TEST(SceneTarget, TransportThatIsNotSymmetricIsNotHalved) {
+  const auto refused = [&](const std::string& quantity) {
+    return refusal(kScene,
+                   {"target={real_time: 1, symmetric: x}", "transport={temperature: {" + quantity + "}}",
+                    "rigid_bodies.tool.shape={box: {size: [0.2, 0.3]}}", "rigid_bodies.tool.pose.position=[0.8, 0.56]",
+                    "materials.sand={name: sand, law: drucker_prager, density: 1600, young: 1 MPa, poisson: 0.3, "
+                    "friction_angle: 30 deg, heat_capacity: 800, conductivity: 1}"});
+  };
+  const std::string start =
+      "--set target={real_time: 1, symmetric: x}: target.symmetric: the scene is not its own mirror image across the "
+      "middle of its grid along x: transport.temperature: ";
+  for (const char* good : {"initial: 300", "initial: 300 + 10*z",
+                           "values: [{region: {box: {min: [0, 0], max: [1.6, 0.1]}}, value: 300 + t + z}]",
+                           "fluxes: [{body: bed, edge: z_max, flux: 10}]", "sources: [{rate: 10 + t}]",
+                           "tools: [{body: tool, conductance: 100, temperature: 350}]"}) {
+    EXPECT_EQ(refused(good), "no error") << good;
+  }
+  expect_start(refused("initial: 300 + 100*x"), start + "its start differs on the two sides");
+  expect_start(refused("values: [{region: {box: {min: [0, 0], max: [0.1, 0.4]}}, value: 300}]"),
+               start + "the region of the value 'value_0' lies on one side");
+  expect_start(refused("values: [{region: {box: {min: [0, 0], max: [1.6, 0.1]}}, value: 300 + x}]"),
+               start + "the value 'value_0' differs");
+  expect_start(refused("fluxes: [{body: bed, edge: x_max, flux: 10}]"), start + "the flux 'flux_0' is through a face");
+  expect_start(refused("fluxes: [{body: bed, edge: z_max, flux: 10*x}]"), start + "the flux 'flux_0' differs");
+  expect_start(refused("fluxes: [{body: bed, edge: z_max, convection: {coefficient: 5, ambient: 300 + x}}]"),
+               start + "the flux 'flux_0' differs");
+  expect_start(refused("fluxes: [{body: bed, edge: z_max, flux: 10, region: {box: {min: [0, 0.3], max: [0.4, 0.4]}}}]"),
+               start + "the flux 'flux_0' has a region on one side");
+  expect_start(refused("sources: [{rate: 10*x}]"), start + "a source differs");
+  expect_start(refused("tools: [{body: tool, conductance: 100, temperature: 350, heat_capacity: 20}]"),
+               start + "the heat capacity of 'tool'");
+}
+
 TEST(SceneTarget, TheShippedTableHasFiguresForPlanesAndSolids) {
   const pace::ForceErrors errors = load_force_errors(parse_scene(kScene, "t", {"target.real_time=1"}));
   const pace::Discretisation usual = {Vec3::Constant(0.1), 2, Precision::float64, UpdateScheme::usavg, 0.5};

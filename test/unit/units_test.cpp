@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace mpm {
 namespace units_test {
@@ -114,6 +116,44 @@ TEST(Units, WhatIsNotAQuantityIsRefused) {
                           "3 sqrt", "3 √",  "3 √√√√√√√√√√m", "0x10",          "1,5",   "5 m m^-1 m^"}) {
     EXPECT_NE(refusal(bad, kLength), "") << bad;
   }
+}
+
+// Who follows a suggestion must not be off by powers of ten.
+TEST(Units, AnotherCaseSuggestsTheUnitThatIsMeant) {
+  const std::vector<std::array<const char*, 2>> meant = {{"KPa", "did you mean 'kPa'?"},
+                                                         {"KPA", "did you mean 'kPa'?"},
+                                                         {"mpa", "did you mean 'MPa' or 'mPa'?"},
+                                                         {"gpa", "did you mean 'GPa'?"},
+                                                         {"Cm", "did you mean 'cm'?"},
+                                                         {"MM", "did you mean 'mm'?"},
+                                                         {"mM", "did you mean 'mm'?"},
+                                                         {"Mm", "did you mean 'mm'?"},
+                                                         {"KG", "did you mean 'kg'?"},
+                                                         {"mS", "did you mean 'ms'?"},
+                                                         {"Ms", "did you mean 'ms'?"},
+                                                         {"Deg", "did you mean 'deg'?"},
+                                                         {"meters", "write 'm'"},
+                                                         {"degC", "the number plus 273.15"},
+                                                         {"deq", "did you mean 'deg'?"},
+                                                         {"µm", "(U+00B5); write 'u' in its place: 'um'"},
+                                                         {"μm", "(U+03BC); write 'u' in its place: 'um'"},
+                                                         {"kg/m³", "(U+00B3); write '^3' in its place: 'kg/m^3'"},
+                                                         {"°", "(U+00B0); write 'deg' in its place: 'deg'"},
+                                                         {"°C", "the number plus 273.15"},
+                                                         {"\u00a0kPa", "type the space anew: 'kPa'"}};
+  for (const auto& [unit, advice] : meant) {
+    const std::string text = refusal(std::string("20 ") + unit, kPressure);
+    EXPECT_EQ(text.find("unknown unit '" + std::string(unit) + "'"), 0U) << text;
+    EXPECT_NE(text.find(advice), std::string::npos) << text;
+  }
+  // No prefix is dropped: psi for kpsi would be off by 1000.
+  EXPECT_EQ(refusal("3 Kpsi", kPressure).find("did you mean"), std::string::npos);
+  // Units that differ from another in case alone are both there.
+  expect_si("1 mPa s", kViscosity, 1e-3);
+  expect_si("2 Mg", kMass, 2000.0);
+  expect_si("2 MJ", kEnergy, 2e6);
+  expect_si("2 kHz", kRate, 2000.0);
+  EXPECT_NEAR(parse_unit("MW").factor, 1e6, 1e-8);
 }
 
 TEST(Units, BadSystemsAreRefused) {

@@ -234,7 +234,8 @@ TEST(ThinTool, ItIsSaidWhatWasChosen) {
   EXPECT_TRUE(said(two.notes(), "'blade' is 1 cells thick"));
   EXPECT_FALSE(said(two.warnings(), "'blade'"));
   const Simulation one(sandwich(GeometryKind::plane_strain, Sides::one), {1});
-  EXPECT_TRUE(said(one.warnings(), "write sides: two"));
+  EXPECT_TRUE(said(one.notes(), "with sides: one the material on its two sides shares nodes"));
+  EXPECT_FALSE(said(one.warnings(), "'blade'")) << "it is the scene's own choice";
 }
 
 // ---- where the tool is not between them, the sides are one body

@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mpm/math/error.hpp"
 #include "mpm/math/geometry.hpp"
@@ -26,6 +28,15 @@ struct FunctionUnits {
 /// Positions that an expression may use: the present one (x, y, z) alone, or also the one at the start (X, Y, Z).
 enum class FunctionPlaces { present, present_and_start };
 
+/// Numbers that expressions may use by name; each in the units in which expressions are written.
+using NamedConstants = std::vector<std::pair<std::string, double>>;
+
+/// What an expression already means by this name (a variable, a constant or a function), such as "the time"; empty for
+/// a name that is free.
+std::string meaning_in_expressions(const std::string& name);
+/// Names in an expression: words that are no part of a number.
+std::vector<std::string> names_in_expression(const std::string& expression);
+
 /// Value-semantic and cheap to copy; evaluation allocates nothing. Copies share one parsed expression: evaluate them
 /// from one thread at a time, or give each thread its own_copy().
 class Function {
@@ -35,9 +46,10 @@ class Function {
   /// A constant, in SI.
   Function(double constant) : constant_(constant) {}  // NOLINT: implicit, so that a number can stand for a function
   /// An expression in t, x, y, z with muParser's operators and functions, `pi` and `e`; its variables and its result
-  /// are in `units`. @throws FunctionError when it does not parse, or names an unknown variable.
+  /// are in `units`. `constants`: further names that it may use.
+  /// @throws FunctionError when it does not parse, assigns, or names an unknown variable.
   static Function parse(const std::string& expression, const FunctionUnits& units = {},
-                        FunctionPlaces places = FunctionPlaces::present);
+                        FunctionPlaces places = FunctionPlaces::present, const NamedConstants& constants = {});
 
   /// The value in SI, at t [s] and place [m]. @throws FunctionError when the value is not finite.
   double operator()(double t, const Vec3& place = Vec3::Zero()) const { return (*this)(t, place, place); }
@@ -50,6 +62,10 @@ class Function {
   bool uses_start() const;
   /// Whether the value depends on the place at all: x, y, z or X, Y, Z.
   bool uses_place() const;
+  /// Whether it depends on the place along an axis, 0 to 2.
+  bool uses_place(int axis) const;
+  /// Whether the value depends on t.
+  bool uses_time() const;
   /// The same function with a parsed expression of its own.
   Function own_copy() const;
   /// The expression, or the constant in SI, as text.

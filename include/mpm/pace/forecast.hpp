@@ -1,6 +1,7 @@
 // How long a run will take, and its pace: simulated over wall time.
 //
 // A forecast and no promise: it takes the steps that were timed for all the others. Stepping alone, without outputs.
+// What the others may cost more or less is said with it: a tool that has not touched yet, material that sleeps or will.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +14,19 @@
 namespace mpm::pace {
 
 struct Forecast {
+  static constexpr double kOfRun = 0.5;  ///< part of a run's steps
+
   StepCost cost;
   std::uint64_t particles = 0;
   int threads = 1;
   double simulated = 0.0;  ///< time that is to be simulated [s]; 0: it has no end
+  bool sleeps = false;     ///< whether material may sleep
+  bool tools = false;      ///< whether there are rigid bodies
 
   double steps() const { return simulated * cost.steps_per_second; }
   double wall_seconds() const { return steps() * cost.step_seconds; }
+  /// Whether the steps that were timed are so many of the run's that they stand for it.
+  bool of_run() const { return simulated > 0.0 && static_cast<double>(cost.steps) >= kOfRun * steps(); }
   /// Simulated over wall time, as far as stepping sets it.
   double real_time_factor() const { return 1.0 / (cost.step_seconds * cost.steps_per_second); }
 };
@@ -30,7 +37,8 @@ struct Forecast {
 std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, std::optional<Isa> isa, double budget,
                                   const std::function<bool()>& stop);
 
-/// "0.13 of real time expected on 2 threads; 1.5 s will take 11 s of wall time (2084 steps of 5.4 ms)"
+/// "0.13 of real time expected on 2 threads; 1.5 s will take 11 s of wall time (2084 steps of 5.4 ms)", and what it
+/// does not know.
 std::string forecast_text(const Forecast& forecast);
 /// A duration as one reads it: "3.4 ms", "11 s", "4 min", "2.5 h".
 std::string duration_text(double seconds);

@@ -1,8 +1,9 @@
 // What a step of a run costs on this machine, timed on steps of the run itself.
 //
 // A Simulation that serves for nothing else makes steps for a part of a second, so contact, law, shape function,
-// precision and threads are those of the scene. Weak: a tool that touches nothing yet costs nothing yet, what else the
-// machine does meanwhile counts, and outputs are not in it.
+// precision and threads are those of the scene. Weak: a tool that touches nothing yet costs nothing yet, material that
+// sleeps costs nothing until it wakes, what else the machine does meanwhile counts, and outputs are not in it. The
+// first two are noted.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,8 @@ struct StepCost {
   double step_seconds = 0.0;      ///< wall time of a step [s]
   double steps_per_second = 0.0;  ///< steps in a second of simulated time [1/s]
   std::uint64_t steps = 0;        ///< steps that were timed
+  double awake = 1.0;             ///< part of the particles that did not sleep at the end of them
+  bool touched = true;            ///< whether a rigid body was in contact then
 };
 
 /// A clock that never runs backwards [s].

@@ -113,11 +113,13 @@ std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh, double thinnest = 0
 
 /// Reads any format that assimp reads, joining equal vertices; `scale` multiplies coordinates, which are taken in the
 /// file's own axes (a COLLADA unit is applied, its up axis is not, as in RViz).
-/// `path` may be `package://name/…` (searched along ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH) or a file path.
+/// `path` may be `package://name/…` (searched along ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH), `file:///…` or a file
+/// path.
 /// @throws RigidError with the path and the reason.
 TriangleMesh load_mesh(const std::string& path, double scale = 1.0);
 
-/// Resolves `package://name/rest`; any other text is returned as it is. @throws RigidError when no such package.
+/// Resolves `package://name/rest` and `file:///path`; any other text is returned as it is. @throws RigidError when no
+/// such package, or a file:// path that is not absolute.
 std::string resolve_resource(const std::string& uri);
 
 }  // namespace mpm

@@ -13,6 +13,7 @@
 #include "mpm/math/function.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/scene/named_constants.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/source.hpp"
 #include "mpm/scene/units.hpp"
@@ -24,9 +25,10 @@ struct ReadContext {
   const Source* source = nullptr;
   UnitSystem units;
   GeometryKind geometry = GeometryKind::solid;  ///< determines which components vectors have
+  SceneConstants constants;                     ///< that numbers and functions may name
 };
 
-/// A key or word of a feature that does not exist yet, and advice what to use instead.
+/// A key or word that people write and that there is not, or not at this place, and what to use instead.
 struct Later {
   std::string word;
   std::string advice;
@@ -48,7 +50,8 @@ class Value {
   /// @throws SceneError always: where(), then `what`.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// A number or quantity, converted to SI. The three functions differ in the range that they accept.
+  /// A number or quantity, or an expression of the scene's constants, converted to SI. The three functions differ in
+  /// the range that they accept.
   double number(const Dimension& dimension) const;
   double positive(const Dimension& dimension) const;
   double non_negative(const Dimension& dimension) const;
@@ -73,6 +76,8 @@ class Value {
 
  private:
   std::vector<Value> components() const;
+  /// The value of an expression of the scene's constants, in SI; nothing for a text that names none.
+  std::optional<double> of_constants(const Dimension& dimension) const;
 
   const ReadContext* context_;
   YAML::Node node_;

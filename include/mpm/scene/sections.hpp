@@ -15,6 +15,8 @@ namespace mpm {
 
 /// `units`
 UnitSystem read_units(const Value& value);
+/// `constants`, after units
+void read_constants(const Value& value, SceneConstants& constants);
 /// `grid`
 void read_grid(const Map& root, Scene& scene);
 /// `method`. Returns the part that is to be chosen once all sections are read, if any.
@@ -56,6 +58,11 @@ std::unique_ptr<Surface> read_polygon(const Value& value, const SimulationDefini
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a robot's link, `urdf`, after `grid`
 std::unique_ptr<Surface> read_urdf_link(const Value& value, const SimulationDefinition& definition);
+/// The path of a file that a scene names: as it is written where it is absolute, or begins with package:// or file://;
+/// else from the scene's folder.
+std::string path_from_scene(const Value& value);
+/// The same. @throws SceneError when there is no such file, with the place where it was looked for
+std::string file_from_scene(const Value& value);
 /// Below this a mesh is refused as too thin [m], after `grid`.
 double thinnest_mesh(const SimulationDefinition& definition);
 /// `drive` and `limits` of a rigid body, after its shape
@@ -117,6 +124,8 @@ void read_metrics(const Map& root, Scene& scene);
 
 /// A number >= 0 or the word stick.
 FrictionLaw read_friction(const Value& value);
+/// {min, max}: the particles whose centres lie in it.
+Box read_particle_region(const Value& value);
 /// A name that Simulation::particle_fields() knows.
 std::string read_particle_field(const Value& value);
 /// Distance between particle centres along an axis [m].

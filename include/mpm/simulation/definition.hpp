@@ -138,23 +138,26 @@ struct ContactDefinition {
   std::vector<PairDefinition> pairs;
 };
 
-enum class Statistic { mean, std_dev, min, max };
+enum class Statistic { mean, std_dev, min, max, sum };
 struct TimeWindow {
   double from = 0.0, to = 0.0;  ///< [s]
 };
-/// A number of the summary: a statistic of a particle field over one body (over all when `body` is empty), or a number
-/// of the whole run.
+/// A number of the summary: a statistic of a particle field over one body (over all when `body` is empty), a number of
+/// the whole run, or a formula of the metrics before it.
 struct MetricDefinition {
   std::string name;
-  std::string number = {};  ///< that a module reports (NamedNumber); empty: a statistic
+  std::string number = {};   ///< that a module reports (NamedNumber); empty: a statistic
+  std::string formula = {};  ///< an expression of metrics before it and of `constants`
+  NamedConstants constants = {};
   Statistic statistic = Statistic::mean;
   std::string field;
   std::string body;
   /// With a window, the number is the statistic's rate of change in it [1/s]: the slope of the least-squares line
   /// through its values at sync points. Without one it is the statistic at the end.
   std::optional<TimeWindow> rate;
-  std::optional<double> at;   ///< the number is that of the first sync point not before this time [s]
-  std::optional<Box> region;  ///< particles whose centres are in it, at that time [m]; all of the body without one
+  std::optional<TimeWindow> over;  ///< the number is the mean over the sync points after `from`, up to `to`
+  std::optional<double> at;        ///< the number is that of the first sync point not before this time [s]
+  std::optional<Box> region;       ///< particles whose centres are in it, at that time [m]; all of the body without one
 };
 
 struct SimulationDefinition {
@@ -179,6 +182,7 @@ struct SimulationDefinition {
   TransportDefinition transport;
   CracksDefinition cracks;
   std::vector<MetricDefinition> metrics;
+  std::vector<std::string> warnings = {};  ///< one line each, of who made the definition
 
   /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.
   double across() const { return planar(geometry) ? thickness : (geometry == GeometryKind::line ? area : 1.0); }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm/scene/scene_warnings.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
@@ -96,6 +97,7 @@ class Run {
   /// Whether a rigid body, with the sphere around its box, lies wholly beside the grid; one that has no end does not.
   bool outside(const mpm::RigidBody& body) const;
   void look_for_lost_bodies();
+  void look_for_fast_bodies();
   void look_for_lost_tips();
   /// What a checkpoint holds beside the simulation.
   void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
@@ -113,6 +115,8 @@ class Run {
   std::int64_t from_ = 0;                       // [ns] simulated time of the checkpoint
   enum class Place : std::uint8_t { outside_yet, inside, lost };
   std::vector<Place> places_;  // of the rigid bodies
+  const mpm::SlowestWave slowest_wave_;
+  std::vector<bool> told_of_speed_;  // of the rigid bodies
   struct ToldOfTip {
     bool no_j = false, stopped = false;
   };

@@ -24,6 +24,8 @@ mpm::Isa instruction_set(const RunSceneOptions& options);
 /// The scene, or that of the recording, to the end that was asked for. Call it before the summary is opened: what is
 /// refused here leaves that of an earlier run as it is. @throws mpm::Error
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun);
+/// Where more threads are asked for than there are processors; else empty.
+std::string thread_warning(int threads);
 /// @throws mpm::SceneError for particle fields that are none
 void check_fields(const OutputOptions& output);
 /// Opens the file before the run, so that a path that cannot be written is reported before hours of work. No file for

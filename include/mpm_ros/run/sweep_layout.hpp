@@ -10,7 +10,8 @@ namespace mpm_ros {
 
 struct LaidOut {
   int runs = 0;
-  double memory = 0.0;  ///< of the largest run, at least [bytes]
+  double memory = 0.0;       ///< of the largest run, at least [bytes]
+  bool has_metrics = false;  ///< whether a run's scene has any
 };
 
 /// The study of a plan, or of a folder that holds one. `out` names its folder where it is not that of the plan.

@@ -17,6 +17,8 @@ std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, 
   options.stop = [&timer] { return timer.after_step(); };
   Forecast forecast;
   forecast.simulated = definition.time.end;
+  forecast.sleeps = definition.sleep.has_value();
+  forecast.tools = !definition.rigid_bodies.empty();
   Simulation copy(std::move(definition), options);
   forecast.particles = copy.particles();
   forecast.threads = copy.threads();
@@ -38,15 +40,43 @@ std::string duration_text(double seconds) {
   return seconds >= 1e-3 * kRounds ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} us", 1e6 * seconds);
 }
 
+namespace {
+
+constexpr double kMostlyAwake = 0.9;  ///< part of the particles: fewer sleep than make a difference
+
+/// What other steps than those that were timed may cost.
+std::string unknown_text(const Forecast& forecast) {
+  if (forecast.of_run()) return {};
+  std::string text;
+  if (forecast.sleeps && forecast.cost.awake < kMostlyAwake) {
+    text += fmt::format(
+        "; {:.0f} % of the material slept when its steps were timed, and what wakes costs more: down to "
+        "{:.2g} of real time where all is awake",
+        100.0 * (1.0 - forecast.cost.awake), forecast.real_time_factor() * forecast.cost.awake);
+  } else if (forecast.sleeps) {
+    text +=
+        "; hardly anything slept when its steps were timed, and what falls asleep makes it faster, up to several times";
+  }
+  if (forecast.tools && !forecast.cost.touched) {
+    text += "; no tool touched when its steps were timed, and contact and what it sets in motion make it slower";
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string forecast_text(const Forecast& forecast) {
   std::string text = fmt::format("{:.2g} of real time expected on {} thread{}", forecast.real_time_factor(),
                                  forecast.threads, forecast.threads == 1 ? "" : "s");
   const std::string step = duration_text(forecast.cost.step_seconds);
   if (!(forecast.simulated > 0.0)) {
-    return text + fmt::format(" ({:.3g} steps of {} a simulated second)", forecast.cost.steps_per_second, step);
+    return text + fmt::format(" ({:.3g} steps of {} a simulated second)", forecast.cost.steps_per_second, step) +
+           unknown_text(forecast);
   }
-  return text + fmt::format("; {:g} s will take {} of wall time ({:.0f} steps of {})", forecast.simulated,
-                            duration_text(forecast.wall_seconds()), forecast.steps(), step);
+  return text +
+         fmt::format("; {:g} s will take {} of wall time ({:.0f} steps of {})", forecast.simulated,
+                     duration_text(forecast.wall_seconds()), forecast.steps(), step) +
+         unknown_text(forecast);
 }
 
 }  // namespace mpm::pace

@@ -10,6 +10,22 @@ namespace {
 constexpr double kTimeUnit = 1e-9;              ///< [s] of simulated time
 constexpr std::uint64_t kPlentyOfSteps = 2000;  ///< more make the mean no better
 
+double part_awake(const Simulation& simulation) {
+  const auto particles = static_cast<double>(simulation.particles());
+  for (const NamedNumber& number : simulation.numbers()) {
+    if (number.name == "asleep") return 1.0 - number.value / particles;
+  }
+  return 1.0;
+}
+
+bool touches(Simulation& simulation) {
+  const std::size_t bodies = simulation.bodies().size();
+  for (std::size_t b = 0; b < bodies; ++b) {
+    if (simulation.take_contact(static_cast<int>(b)).nodes > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 double steady_seconds() {
@@ -54,6 +70,8 @@ std::optional<StepCost> StepTimer::time(Simulation& simulation) {
   cost.steps = steps_ > 1 ? steps_ - 1 : 1;
   cost.step_seconds = (last_ - (steps_ > 1 ? first_ : begun_)) / static_cast<double>(cost.steps);
   cost.steps_per_second = 1.0 / dt;
+  cost.awake = part_awake(simulation);
+  cost.touched = touches(simulation);
   return cost;
 }
 

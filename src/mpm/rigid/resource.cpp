@@ -1,4 +1,4 @@
-// package:// paths without a ROS library: the same places that rospack and catkin search.
+// package:// and file:// paths without a ROS library: the same places that rospack and catkin search.
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -56,6 +56,13 @@ std::vector<fs::path> package_folders(const std::string& name) {
 }  // namespace
 
 std::string resolve_resource(const std::string& uri) {
+  const std::string local = "file://";
+  if (uri.compare(0, local.size(), local) == 0) {
+    if (uri.compare(local.size(), 1, "/") == 0) return uri.substr(local.size());
+    throw RigidError(uri +
+                     ": file:// takes an absolute path, as in file:///home/me/tool.stl; leave file:// out for a "
+                     "path from the scene's folder");
+  }
   const std::string scheme = "package://";
   if (uri.compare(0, scheme.size(), scheme) != 0) return uri;
   const std::size_t slash = uri.find('/', scheme.size());

@@ -14,6 +14,7 @@
 #include "mpm/ranks/agree.hpp"
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/scene/feasible.hpp"
+#include "mpm/scene/scene_warnings.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/terrain.hpp"
 #include "mpm/simulation/layout.hpp"
@@ -175,6 +176,7 @@ Box Region::bounds() const {
 
 SimulationDefinition build(const Scene& scene, Communicator* ranks) try {
   SimulationDefinition definition = scene.definition;
+  definition.warnings = scene_warnings(scene);
   double half_spacing = std::numeric_limits<double>::infinity();
   for (const int axis : axes_of(scene)) half_spacing = std::min(half_spacing, 0.5 * particle_spacing(scene, axis));
   for (const BodyDefinition& body : scene.bodies) check_place(body, scene);

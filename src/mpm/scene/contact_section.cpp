@@ -296,10 +296,7 @@ FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
     scene.definition.contact.method = ContactMethod::nodes;
     scene.choices.emplace_back("contact.method", "nodes: contact at points does not see material near a crack");
   }
-  if (!section) {
-    if (with_tools) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
-    return {};
-  }
+  if (!section) return {};
   const Map map = contact_map(*section);
   const ContactLaw law = read_contact_law(map, false);
   read_rules(map, scene.definition.contact);

@@ -73,10 +73,7 @@ std::vector<Vec2> read_arc(const Value& value, double segment) {
 
 /// Lines of x and z, numbers in the scene's units. @throws SceneError
 std::vector<Vec2> read_point_file(const Value& value) {
-  std::string path = value.text();
-  if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative()) {
-    path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
-  }
+  std::string path = path_from_scene(value);
   HeightTable table;
   bool empty = false;
   std::string refused;

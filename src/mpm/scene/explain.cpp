@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "mpm/scene/feasible.hpp"
@@ -19,6 +20,49 @@ std::string geometry_text(const SimulationDefinition& definition) {
   std::string text = spoken_name(definition.geometry);
   if (planar(definition.geometry)) text += fmt::format(", {:g} m thick", definition.thickness);
   return text;
+}
+
+std::string law_text(const ContactLaw& law) {
+  switch (law.kind) {
+    case ContactLaw::Kind::stick:
+      return "sticks";
+    case ContactLaw::Kind::coulomb:
+      return law.friction.is_constant() ? fmt::format("friction {:g}", law.friction(0.0))
+                                        : fmt::format("friction {}", law.friction.text());
+    default:
+      return "a law of its own";
+  }
+}
+
+std::string mass_text(const RigidBodyDefinition& rigid) {
+  if (!rigid.free) return "motion prescribed";
+  static constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "rx", "ry", "rz"};
+  std::string axes;
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    if (rigid.free->axes[k]) axes += fmt::format("{}{}", axes.empty() ? "" : ", ", kNames[k]);
+  }
+  return fmt::format("{:.4g} kg, free along {}", rigid.free->mass, axes);
+}
+
+/// Where it is at the start, how large and heavy, and how it may move: what a wrong unit changes.
+std::string rigid_text(const RigidBodyDefinition& rigid, const SimulationDefinition& built) {
+  std::string text = fmt::format("rigid body {}:", rigid.name);
+  const Box bounds = world_bounds(rigid.pose, rigid.surface->bounds());
+  for (const int axis : axes_of(built.geometry)) {
+    const bool ends = std::isfinite(bounds.min[axis]) && std::isfinite(bounds.max[axis]);
+    text += fmt::format(
+        " {} {}", axis_name(axis),
+        ends ? fmt::format("{:.4g} to {:.4g} m,", bounds.min[axis], bounds.max[axis]) : std::string("without an end,"));
+  }
+  const double across = planar(built.geometry) ? built.thickness : std::sqrt(built.area);
+  const auto moments = rigid.surface->moments(across);
+  if (moments && std::isfinite(moments->volume)) text += fmt::format(" {:.4g} m^3,", moments->volume);
+  text += fmt::format(" {}, {}", mass_text(rigid),
+                      rigid.friction.stick ? "sticks" : fmt::format("friction {:g}", rigid.friction.coefficient));
+  for (const PairDefinition& pair : built.contact.pairs) {
+    if (pair.second == rigid.name) text += fmt::format(", {}: {}", pair.first, law_text(pair.law));
+  }
+  return text + "\n";
 }
 
 void add_bodies(const Scene& scene, const SimulationDefinition& built, std::string& text) {
@@ -39,10 +83,7 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
                           law_name(material.law), lengths * body.particle_volume * material.density);
     }
   }
-  for (const RigidBodyDefinition& rigid : built.rigid_bodies) {
-    text += fmt::format("rigid body {}: {}\n", rigid.name,
-                        rigid.friction.stick ? "sticks" : fmt::format("friction {:g}", rigid.friction.coefficient));
-  }
+  for (const RigidBodyDefinition& rigid : built.rigid_bodies) text += rigid_text(rigid, built);
   const double per_cell = std::pow(built.method.particles_per_direction, axes_of(scene).size());
   text += fmt::format("total: {:.0f} particles in {:.0f} cells\n", particles, particles / per_cell);
 }
@@ -64,6 +105,11 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
   }
   const double steps = std::ceil(sync / limit);
   text += fmt::format("time step: at most {:.4g} s, set by {}\n", limit, reason);
+  for (const TransportStages& transport : transport_stages(scene)) {
+    text += fmt::format("transport of {}: {:.3g} m^2/s at most{}, {} stage{} in each step\n", transport.quantity,
+                        transport.diffusivity, transport.material.empty() ? "" : " in " + transport.material,
+                        transport.stages, transport.stages == 1 ? "" : "s");
+  }
   text += fmt::format("sync period: {:.9g} s, {:.0f} step{} each while the material is unstrained\n", sync, steps,
                       steps == 1.0 ? "" : "s");
   if (time.end > 0.0) {

@@ -55,14 +55,26 @@ std::string first_comment(const fs::path& path) {
   return line.empty() || line[0] != '#' || begin == std::string::npos ? "" : line.substr(begin);
 }
 
+/// What to do about a path at which there is no scene.
+std::string advice_for_path(const std::string& path) {
+  if (path[0] == '~') return "~ is not the home folder here, write the path out";
+  if (path.find("://") != std::string::npos) return "a scene is a path, or the name of a shipped scene";
+  if (fs::path(path).is_relative())
+    return "write an absolute path (a program that roslaunch starts runs in ~/.ros), or name a shipped scene";
+  return "check the path, or name a shipped scene";
+}
+
 fs::path find_scene(const std::string& name_or_path) {
   if (is_file(name_or_path)) return name_or_path;
   const bool is_path = name_or_path.find('/') != std::string::npos || fs::path(name_or_path).extension() == ".yaml";
   std::error_code ignored;
   if (is_path && fs::exists(name_or_path, ignored))
     throw SceneError(fmt::format("{}: {}", name_or_path, refused_input(name_or_path)));
-  if (is_path)
-    throw SceneError(fmt::format("{}: no such scene file; check the path, or name a shipped scene", name_or_path));
+  if (is_path) {
+    const fs::path folder = fs::absolute(name_or_path, ignored).parent_path().lexically_normal();
+    throw SceneError(
+        fmt::format("{}: no such scene file in {}; {}", name_or_path, folder.string(), advice_for_path(name_or_path)));
+  }
   for (const fs::path& folder : scene_folders()) {
     const fs::path path = folder / (name_or_path + ".yaml");
     if (is_file(path)) return path;

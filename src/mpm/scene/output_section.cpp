@@ -1,4 +1,4 @@
-// time, output and metrics: the end, the step's limits, sync points, snapshots and the scene's own numbers.
+// time and output: the end, the step's limits, sync points and snapshots.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -134,12 +134,6 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
   scene.output.first = seconds(first);
 }
 
-/// Reads a name that Simulation::body_values() knows.
-std::string read_body_value(const Value& value) {
-  const std::vector<std::string>& names = Simulation::body_values();
-  return names[value.choice(names)];
-}
-
 /// Reads a quantity by its name, or {quantity: NAME, body: NAME}.
 GlobalQuantity read_global_quantity(const Value& value, const Scene& scene) {
   GlobalQuantity quantity;
@@ -190,24 +184,14 @@ void check_global_period(const Map& map, Scene& scene) {
                            seconds(sync), seconds(parts * sync)));
 }
 
+}  // namespace
+
 Box read_particle_region(const Value& value) {
   const Map map(value, {"min", "max"});
   const Box box{map.at("min").vector(kLength), map.at("max").vector(kLength)};
   if (box.empty()) value.fail("max is below min along an axis; write the lower corner as min");
   return box;
 }
-
-/// The name of a number that some module can report.
-std::string read_reported_number(const Value& value) {
-  const std::string name = value.text();
-  const std::vector<std::string> known = reported_number_names();
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    value.fail(fmt::format("no number '{}' of the run; {}", name, suggest(name, known)));
-  }
-  return name;
-}
-
-}  // namespace
 
 std::string read_particle_field(const Value& value) {
   const std::string field = value.text();
@@ -248,78 +232,6 @@ void read_time_and_output(const Map& root, Scene& scene) {
   }
   choose_periods(sync, period, first, scene);
   if (global) check_global_period(*global, scene);
-}
-
-void read_metrics(const Map& root, Scene& scene) {
-  const auto section = root.find("metrics");
-  if (!section) return;
-  static const std::vector<std::string> kStatistics = {"mean", "std", "min", "max"};
-  static constexpr std::array kKinds = {Statistic::mean, Statistic::std_dev, Statistic::min, Statistic::max};
-  std::vector<std::string> bodies, rigid_bodies;
-  for (const BodyDefinition& body : scene.bodies) bodies.push_back(body.name);
-  for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) rigid_bodies.push_back(body.name);
-  if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
-  for (const auto& entry : section->node()) {
-    const Value value = section->child(entry.second, entry.first.Scalar());
-    const Map map(value, {"mean", "std", "min", "max", "number", "of", "rate", "at", "in"});
-    MetricDefinition metric;
-    metric.name = section->child(entry.first, entry.first.Scalar()).name();
-    int statistics = 0;
-    const auto of = map.find("of");
-    const bool of_rigid = of && std::find(rigid_bodies.begin(), rigid_bodies.end(), of->text()) != rigid_bodies.end();
-    for (std::size_t i = 0; i < kStatistics.size(); ++i) {
-      if (const auto field = map.find(kStatistics[i])) {
-        ++statistics;
-        metric.statistic = kKinds.at(i);
-        metric.field = of_rigid ? read_body_value(*field) : read_particle_field(*field);
-        if (of_rigid && i > 0) value.fail("a rigid body has one number of a kind; write mean");
-      }
-    }
-    if (const auto number = map.find("number")) {
-      ++statistics;
-      metric.number = read_reported_number(*number);
-      if (of) of->fail("the number is of the whole run; leave it out");
-    }
-    if (statistics != 1) {
-      value.fail(fmt::format("has {} statistics; write one of mean, std, min, max or number", statistics));
-    }
-    if (of) {
-      metric.body = of->text();
-      if (!of_rigid && std::find(bodies.begin(), bodies.end(), metric.body) == bodies.end()) {
-        of->fail(fmt::format("no deformable body '{}'; {}", metric.body, suggest(metric.body, bodies)));
-      }
-    }
-    if (const auto rate = map.find("rate")) {
-      const Map window(*rate, {"from", "to"});
-      metric.rate = TimeWindow{window.at("from").non_negative(kTime), window.at("to").positive(kTime)};
-      if (!(metric.rate->to > metric.rate->from)) {
-        rate->fail(
-            fmt::format("from {} s to {} s is no time; put `to` after `from`", metric.rate->from, metric.rate->to));
-      }
-      const TimeDefinition& time = scene.definition.time;
-      if (time.end > 0.0 && metric.rate->to > time.end * (1.0 + 1e-9)) {
-        rate->fail(fmt::format("to {:g} s is after the end of the run, {:g} s; end it there or earlier",
-                               metric.rate->to, time.end));
-      }
-      if (metric.rate->to - metric.rate->from < 1e-9 * static_cast<double>(time.sync)) {
-        rate->fail(fmt::format("it is shorter than time.sync, {:g} s, and a rate needs two sync points; make it longer",
-                               1e-9 * static_cast<double>(time.sync)));
-      }
-    }
-    if (const auto at = map.find("at")) {
-      if (metric.rate) at->fail("a rate has a time of its own; leave one of the two out");
-      metric.at = at->non_negative(kTime);
-      const TimeDefinition& time = scene.definition.time;
-      if (time.end > 0.0 && *metric.at > time.end * (1.0 + 1e-9)) {
-        at->fail(fmt::format("{:g} s is after the end of the run, {:g} s", *metric.at, time.end));
-      }
-    }
-    if (const auto region = map.find("in")) {
-      if (of_rigid || !metric.number.empty()) region->fail("it is one number for the whole; leave it out");
-      metric.region = read_particle_region(*region);
-    }
-    scene.definition.metrics.push_back(std::move(metric));
-  }
 }
 
 }  // namespace mpm

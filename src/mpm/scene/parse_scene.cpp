@@ -86,9 +86,10 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   ReadContext context;
   context.source = &source;
   const Value top(context, source.root(), "");
-  const Map root(top, {"name",   "units",     "geometry",  "thickness", "area",         "grid",    "time",
-                       "method", "gravity",   "materials", "bodies",    "rigid_bodies", "contact", "boundaries",
-                       "loads",  "transport", "sleep",     "cracks",    "output",       "metrics", "target"});
+  const Map root(top,
+                 {"name",      "units",   "constants", "geometry", "thickness",    "area",    "grid",       "time",
+                  "method",    "gravity", "materials", "bodies",   "rigid_bodies", "contact", "boundaries", "loads",
+                  "transport", "sleep",   "cracks",    "output",   "metrics",      "target"});
   Scene scene;
   scene.path = label;
   SimulationDefinition& definition = scene.definition;
@@ -100,6 +101,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   if (const auto units = root.find("units")) {
     context.units = read_units(*units);
   }
+  if (const auto constants = root.find("constants")) read_constants(*constants, context.constants);
   read_geometry(root, context, scene);
   read_grid(root, scene);
   const std::optional<AutoMethod> asked = read_method(root, scene);
@@ -126,6 +128,10 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_cracks(root, scene);
   read_metrics(root, scene);
   read_target(root, scene);
+  for (const std::string& name : context.constants.unused()) {
+    definition.warnings.push_back(
+        fmt::format("constants.{}: nothing in the scene uses it; use it, or leave it out", name));
+  }
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);
   if (asked) choose_method(*asked, load_method_costs(), scene);
   scene.text = asked ? with_method(source.root(), definition.method) : source.dump();

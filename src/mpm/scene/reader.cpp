@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm/math/odd_characters.hpp"
 
 namespace mpm {
 namespace {
@@ -35,10 +36,24 @@ std::vector<std::string> with_later(std::vector<std::string> words, const std::v
   return words;
 }
 
+/// Without what is there twice, as where several laws have a key.
+std::vector<std::string> distinct(std::vector<std::string> words) {
+  std::vector<std::string> once;
+  for (std::string& word : words) {
+    if (!contains(once, word)) once.push_back(std::move(word));
+  }
+  return once;
+}
+
 const char* kind_of(const YAML::Node& node) {
   if (node.IsMap()) return "a map of keys";
   if (node.IsSequence()) return "a list";
   return node.IsScalar() ? "one value" : "nothing";
+}
+
+/// To be added to an error of a text that is no number, where there are constants that may be meant.
+std::string with_constants(const ReadContext& context) {
+  return context.constants.empty() ? "" : ", or an expression of the constants " + context.constants.names();
 }
 
 }  // namespace
@@ -50,7 +65,13 @@ std::string Value::where() const {
   return fmt::format("{}: {}", context_->source->where(node_), path_.empty() ? context_->source->kind() : path_);
 }
 
-void Value::fail(const std::string& what) const { throw SceneError(where() + ": " + what); }
+void Value::fail(const std::string& what) const {
+  std::string text = where() + ": " + what;
+  // What is wrong with a text that looks right.
+  const std::string odd = is_text() ? odd_character(node_.Scalar()) : "";
+  if (!odd.empty() && what.find(odd) == std::string::npos) text += "; " + odd;
+  throw SceneError(text);
+}
 
 std::string Value::text() const {
   if (!is_text()) fail(fmt::format("found {}; write one value", kind_of(node_)));
@@ -65,7 +86,9 @@ double Value::number(const Dimension& dimension) const {
   try {
     value = parse_quantity(node_.Scalar(), dimension, context_->units);
   } catch (const UnitError& error) {
-    fail(error.what());
+    const std::optional<double> found = of_constants(dimension);
+    if (!found) fail(error.what() + with_constants(*context_));
+    value = *found;
   }
   const double size = std::abs(value);
   if (size > kMostNumber || (size > 0.0 && size < 1.0 / kMostNumber)) {
@@ -73,6 +96,25 @@ double Value::number(const Dimension& dimension) const {
                      1.0 / kMostNumber, kMostNumber, describe(dimension), example(dimension)));
   }
   return value;
+}
+
+std::optional<double> Value::of_constants(const Dimension& dimension) const {
+  const SceneConstants& constants = context_->constants;
+  const std::string word = text();
+  if (!constants.used_by(word)) return std::nullopt;
+  const auto own = constants.dimension_of(word);
+  if (own && !(*own == dimension)) {
+    fail(fmt::format("the constant '{}' is {}, but {} is expected; write one such as {}", word, describe(*own),
+                     describe(dimension), example(dimension)));
+  }
+  try {
+    const Function function = Function::parse(word, {}, FunctionPlaces::present, constants.numbers());
+    if (function.uses_time() || function.uses_place())
+      fail(fmt::format("'{}' depends on time or place, and this is a number; use constants alone", word));
+    return function(0.0) * context_->units.factor(dimension);
+  } catch (const FunctionError& error) {
+    fail(error.what());
+  }
 }
 
 double Value::positive(const Dimension& dimension) const {
@@ -119,7 +161,7 @@ std::size_t Value::choice(const std::vector<std::string>& words, const std::vect
   const std::string word = text();
   const auto found = std::find(words.begin(), words.end(), word);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  if (const Later* entry = find_later(word, later)) fail(fmt::format("'{}' is not built yet; {}", word, entry->advice));
+  if (const Later* entry = find_later(word, later)) fail(fmt::format("'{}' is no word here; {}", word, entry->advice));
   fail(fmt::format(
       "'{}' is not known; {}", word,
       nearest(word, words).empty() ? fmt::format("write one of {}", fmt::join(words, ", ")) : suggest(word, words)));
@@ -132,11 +174,17 @@ Function Value::function(const Dimension& dimension, FunctionPlaces places) cons
   // A number followed by a word, 1/s or % is a quantity; anything else that is more than a number is an expression.
   const bool starts_with_number = split_number(word, number, rest);
   const bool has_unit =
-      starts_with_number && !rest.empty() && (std::isalnum(static_cast<unsigned char>(rest[0])) || rest == "%");
+      starts_with_number && !rest.empty() &&
+      (std::isalnum(static_cast<unsigned char>(rest[0])) || rest == "%" || static_cast<unsigned char>(rest[0]) >= 0x80);
   if (starts_with_number && (rest.empty() || has_unit)) return {this->number(dimension)};
   const UnitSystem& units = context_->units;
+  const SceneConstants& constants = context_->constants;
+  if (constants.has(word)) return {this->number(dimension)};
   try {
-    return Function::parse(word, {units.factor(dimension), units.time, units.length}, places);
+    Function function =
+        Function::parse(word, {units.factor(dimension), units.time, units.length}, places, constants.numbers());
+    if (constants.used_by(word) && !function.uses_time() && !function.uses_place()) return {function(0.0)};
+    return function;
   } catch (const FunctionError& error) {
     fail(fmt::format("{}; write {}, such as {}, or an expression", error.what(), describe(dimension),
                      example(dimension)));
@@ -193,16 +241,23 @@ Value Value::child(const YAML::Node& node, const std::string& part) const {
 }
 
 Map::Map(const Value& value, std::vector<std::string> keys, const std::vector<Later>& later)
-    : value_(value), keys_(std::move(keys)) {
+    : value_(value), keys_(distinct(std::move(keys))) {
   if (!value.is_map()) {
     value.fail(fmt::format("found {}; write keys, of {}", kind_of(value.node()), fmt::join(keys_, ", ")));
   }
   for (const auto& entry : value.node()) {
     const std::string& key = entry.first.Scalar();
     if (contains(keys_, key)) continue;
+    if (key == "<<") {
+      value.child(entry.first, key)
+          .fail(
+              "merge keys are not understood; write the keys out, or give a whole value a name with & and use it with "
+              "*");
+    }
     // The error names the line of the key, not of its value.
     const Value culprit = value.child(entry.first, key);
-    if (const Later* known = find_later(key, later)) culprit.fail("not built yet; " + known->advice);
+    if (const Later* known = find_later(key, later))
+      culprit.fail(fmt::format("'{}' is no key here; {}", key, known->advice));
     culprit.fail(fmt::format(
         "unknown key '{}'; {}", key,
         nearest(key, with_later(keys_, later)).empty() ? suggest(key, keys_) : suggest(key, with_later(keys_, later))));
@@ -228,6 +283,16 @@ Value Map::at(const std::string& key) const {
 
 std::pair<std::string, Value> only_key(const Value& value, const std::vector<std::string>& keys,
                                        const std::vector<Later>& later) {
+  if (value.is_map()) {
+    for (const auto& entry : value.node()) {
+      const std::string& key = entry.first.Scalar();
+      if (contains(keys, key) || find_later(key, later) != nullptr || key == "<<") continue;
+      const std::string near = nearest(key, keys);
+      value.child(entry.first, key)
+          .fail(fmt::format("unknown key '{}'; {}write one of {}", key,
+                            near.empty() ? "" : fmt::format("did you mean '{}'? ", near), fmt::join(keys, ", ")));
+    }
+  }
   const Map map(value, keys, later);
   if (value.node().size() != 1)
     value.fail(fmt::format("found {} keys; write one of {}", value.node().size(), fmt::join(keys, ", ")));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "mpm/math/constants.hpp"
 #include "mpm/scene/sections.hpp"
@@ -17,16 +16,18 @@ constexpr double kThinnestMesh = 0.01;
 
 std::unique_ptr<Surface> read_mesh(const Value& value, const SimulationDefinition& definition) {
   const GeometryKind geometry = definition.geometry;
-  if (axisymmetric(geometry)) value.fail("a mesh is not a body of revolution; write its section as revolved");
+  if (axisymmetric(geometry))
+    value.fail(
+        "a mesh is not a body of revolution; write its section as revolved, or cylinder, cone, ring, sphere, plane");
   if (planar(geometry))
-    value.fail("a planar scene has no mesh; write box, sphere or cylinder, each without end along y");
-  if (geometry == GeometryKind::line) value.fail("a line has no mesh; write box or sphere, each an interval of it");
+    value.fail(
+        "a planar scene has no mesh; write polygon, box, sphere, cylinder, capsule, plane or height_field, each "
+        "without "
+        "end along y");
+  if (geometry == GeometryKind::line) value.fail("a line has no mesh; write box, sphere or plane");
   const Map map(value, {"file", "scale"});
   const Value file = map.at("file");
-  std::string path = file.text();
-  if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative()) {
-    path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
-  }
+  const std::string path = file_from_scene(file);
   const auto scale_key = map.find("scale");
   const double scale = scale_key ? scale_key->positive(kLength) : value.context().units.factor(kLength);
   try {
@@ -213,6 +214,12 @@ void read_divides(const Value& value, const Scene& scene, RigidBodyDefinition& b
   }
 }
 
+/// Whether `contact` says the friction of tools without one of their own.
+bool names_friction(const Map& root) {
+  const auto contact = root.find("contact");
+  return contact && contact->is_map() && (contact->node()["friction"] || contact->node()["law"]);
+}
+
 }  // namespace
 
 double thinnest_mesh(const SimulationDefinition& definition) {
@@ -234,6 +241,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const auto section = root.find("rigid_bodies");
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
+  bool smooth = false;  // a tool for which the scene names no friction
   for (const Value& value : section->elements()) {
     const Map map(value,
                   {"name", "shape", "pose", "motion", "drive", "limits", "free", "friction", "reach", "sides",
@@ -255,6 +263,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     scene.commands.push_back(read_commands(map, body.name, scene));
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
+    smooth = smooth || (!own_friction && !names_friction(root));
     read_free(map, scene.definition, body);
     if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     if (const auto divides = map.find("divides")) read_divides(*divides, scene, body);
@@ -267,6 +276,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     if (const auto normals = map.find("normals")) read_normals(*normals, body);
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
+  if (smooth) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
 }
 
 }  // namespace mpm

@@ -210,6 +210,12 @@ void Source::apply(const std::string& text) {
       node.reset(node[index]);
     } else if (node.IsMap() || node.IsNull()) {
       const bool is_new = !node[part];
+      if (is_new && walked == "constants") {
+        std::vector<std::string> names;
+        for (const auto& entry : node) names.push_back(entry.first.Scalar());
+        throw SceneError(
+            fmt::format("{}: constants: the scene has no constant '{}'; {}", label, part, suggest(part, names)));
+      }
       if (last) {
         node[part] = value;
       } else if (is_new) {

@@ -57,6 +57,15 @@ std::string asymmetry_of_body(const BodyDefinition& body, double plane, double t
   return {};
 }
 
+/// Whether an axis is one of a tensor's own.
+bool along_axis(const Symmetric3<double>& tensor, int axis) {
+  const std::array<double, 3> off = {tensor.yz, tensor.xz, tensor.xy};  // of each, the one that it is not in
+  for (int other = 0; other < 3; ++other) {
+    if (other != axis && off[static_cast<std::size_t>(other)] != 0.0) return false;
+  }
+  return true;
+}
+
 /// Whether the corners of a tool's bounds, in its pose, are their own mirror image.
 bool corners_mirrored(const RigidBodyDefinition& body, double plane, double tolerance, int axis) {
   const Box bounds = body.surface->bounds();
@@ -88,6 +97,57 @@ std::string asymmetry_of_tool(const RigidBodyDefinition& body, double plane, dou
   return {};
 }
 
+/// Of one quantity that particles carry. Each condition has to be its own mirror image; one on either side is not seen
+/// to be that of the other.
+std::string asymmetry_of_quantity(const QuantityDefinition& quantity, const Scene& scene, double plane,
+                                  double tolerance, int axis) {
+  const std::string start = fmt::format("transport.{}: ", kQuantityNames[static_cast<std::size_t>(quantity.quantity)]);
+  const std::string by_hand = "; model the half by hand, with a face `symmetry`";
+  for (const auto& [body, initial] : quantity.initial) {
+    if (initial.uses_place(axis)) return start + "its start differs on the two sides" + by_hand;
+  }
+  for (const ValueDefinition& value : quantity.values) {
+    if (value.value.uses_place(axis))
+      return start + fmt::format("the value '{}' differs on the two sides", value.name) + by_hand;
+    if (!corners_mirrored(value.region, plane, tolerance, axis))
+      return start + fmt::format("the region of the value '{}' lies on one side", value.name) + by_hand;
+    const auto& turns = value.region.rotation_rate;
+    if (!value.region.velocity[static_cast<std::size_t>(axis)].is_zero() ||
+        !std::all_of(turns.begin(), turns.end(), [](const Function& rate) { return rate.is_zero(); }))
+      return start + fmt::format("the region of the value '{}' moves across that plane", value.name) + by_hand;
+  }
+  const std::vector<LoadRegion>& regions = scene.flux_regions[static_cast<std::size_t>(quantity.quantity)];
+  for (std::size_t i = 0; i < quantity.fluxes.size(); ++i) {
+    const FluxDefinition& flux = quantity.fluxes[i];
+    const auto says = [&](const char* what) {
+      return start + fmt::format("the flux '{}' {}", flux.name, what) + by_hand;
+    };
+    if (flux.face / 2 == axis) return says("is through a face on one side");
+    if (flux.value.uses_place(axis)) return says("differs on the two sides");
+    if (i < regions.size() && regions[i].region) {
+      const Box bounds = regions[i].region->bounds();
+      if (!(std::abs(bounds.min[axis] + bounds.max[axis] - 2.0 * plane) <= tolerance))
+        return says("has a region on one side");
+    }
+  }
+  for (const SourceDefinition& source : quantity.sources) {
+    if (source.value.uses_place(axis)) return start + "a source differs on the two sides" + by_hand;
+  }
+  for (const ToolHeatDefinition& tool : quantity.tools) {
+    if (tool.capacity > 0.0) {
+      return start +
+             fmt::format("the heat capacity of '{}' is that of the whole body, which half the material would heat",
+                         tool.body) +
+             by_hand;
+    }
+  }
+  for (const TransportMaterial& material : quantity.materials) {
+    if (!along_axis(material.anisotropy.value_or(Symmetric3<double>{}), axis) || !along_axis(material.biot, axis))
+      return start + "a material's axes are oblique to that plane" + by_hand;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string asymmetry(const Scene& scene, int axis) {
@@ -113,6 +173,10 @@ std::string asymmetry(const Scene& scene, int axis) {
     if (const std::string why = asymmetry_of_tool(body, plane, tolerance, axis); !why.empty()) return why;
     if (i < scene.commands.size() && !scene.commands[i].frame.empty())
       return fmt::format("rigid body '{}' follows a tf frame, which may leave that plane", body.name);
+  }
+  for (const QuantityDefinition& quantity : definition.transport.quantities) {
+    const std::string why = asymmetry_of_quantity(quantity, scene, plane, tolerance, axis);
+    if (!why.empty()) return why;
   }
   return {};
 }

@@ -1,7 +1,9 @@
 #include "mpm/scene/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -9,6 +11,7 @@
 #include <string_view>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm/math/odd_characters.hpp"
 
 namespace mpm {
 namespace {
@@ -38,6 +41,7 @@ const std::array kUnits = {
     NamedUnit{"kg", {1.0, kMass}},
     NamedUnit{"g", {1e-3, kMass}},
     NamedUnit{"mg", {1e-6, kMass}},
+    NamedUnit{"Mg", {1e3, kMass}},
     NamedUnit{"t", {1e3, kMass}},
     NamedUnit{"lb", {kPound, kMass}},
     NamedUnit{"lbs", {kPound, kMass}},
@@ -51,6 +55,7 @@ const std::array kUnits = {
     NamedUnit{"ns", {1e-9, kTime}},
     NamedUnit{"min", {60.0, kTime}},
     NamedUnit{"Hz", {1.0, kRate}},
+    NamedUnit{"kHz", {1e3, kRate}},
     NamedUnit{"rad", {1.0, kAngle}},
     NamedUnit{"deg", {M_PI / 180.0, kAngle}},
     NamedUnit{"rpm", {M_PI / 30.0, kAngularRate}},
@@ -65,17 +70,20 @@ const std::array kUnits = {
     NamedUnit{"kPa", {1e3, kPressure}},
     NamedUnit{"MPa", {1e6, kPressure}},
     NamedUnit{"GPa", {1e9, kPressure}},
+    NamedUnit{"mPa", {1e-3, kPressure}},
     NamedUnit{"bar", {1e5, kPressure}},
     NamedUnit{"Ba", {0.1, kPressure}},
     NamedUnit{"psi", {kPoundForce / (kInch * kInch), kPressure}},
     NamedUnit{"J", {1.0, kEnergy}},
     NamedUnit{"kJ", {1e3, kEnergy}},
+    NamedUnit{"MJ", {1e6, kEnergy}},
     NamedUnit{"mJ", {1e-3, kEnergy}},
     NamedUnit{"uJ", {1e-6, kEnergy}},
     NamedUnit{"nJ", {1e-9, kEnergy}},
     NamedUnit{"erg", {1e-7, kEnergy}},
     NamedUnit{"W", {1.0, kPower}},
     NamedUnit{"kW", {1e3, kPower}},
+    NamedUnit{"MW", {1e6, kPower}},
     NamedUnit{"mW", {1e-3, kPower}},
     NamedUnit{"uW", {1e-6, kPower}},
     NamedUnit{"nW", {1e-9, kPower}},
@@ -84,6 +92,62 @@ const std::array kUnits = {
     NamedUnit{"K", {1.0, kTemperature}},
     NamedUnit{"%", {0.01, kPlain}},
 };
+
+/// What people write for units that have another name here.
+struct OtherName {
+  const char* name;
+  const char* advice;
+};
+constexpr std::array<OtherName, 23> kOtherNames = {{{"meter", "write 'm'"},
+                                                    {"meters", "write 'm'"},
+                                                    {"metre", "write 'm'"},
+                                                    {"metres", "write 'm'"},
+                                                    {"second", "write 's'"},
+                                                    {"seconds", "write 's'"},
+                                                    {"h", "write minutes, 'min'"},
+                                                    {"hr", "write minutes, 'min'"},
+                                                    {"hour", "write minutes, 'min'"},
+                                                    {"hours", "write minutes, 'min'"},
+                                                    {"degree", "write 'deg'"},
+                                                    {"degrees", "write 'deg'"},
+                                                    {"newton", "write 'N'"},
+                                                    {"pascal", "write 'Pa'"},
+                                                    {"gram", "write 'g'"},
+                                                    {"kilogram", "write 'kg'"},
+                                                    {"ton", "write 't', which is 1000 kg"},
+                                                    {"tonne", "write 't'"},
+                                                    {"inch", "write 'in'"},
+                                                    {"ksi", "write psi, 1000 times as many"},
+                                                    {"C", "write kelvins, 'K': the number plus 273.15"},
+                                                    {"degC", "write kelvins, 'K': the number plus 273.15"},
+                                                    {"celsius", "write kelvins, 'K': the number plus 273.15"}}};
+
+bool same_but_for_case(const std::string& a, const std::string& b) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// What to write in place of a name that is no unit. Names that are merely near are off by a power of ten as soon as
+/// the letter that differs is a prefix, so only another case and a slip within a long name are taken as meant.
+std::string advice_for(const std::string& name) {
+  std::vector<std::string> meant, all;
+  for (const NamedUnit& known : kUnits) {
+    const std::string unit = known.name;
+    all.push_back(unit);
+    if (same_but_for_case(name, unit)) meant.push_back(unit);
+  }
+  for (const OtherName& other : kOtherNames) {
+    if (meant.empty() && same_but_for_case(name, other.name)) return other.advice;
+  }
+  for (const std::string& unit : all) {
+    if (meant.empty() && unit.size() >= 3 && name[0] == unit[0] && edit_distance(name, unit) == 1)
+      return fmt::format("did you mean '{}'?", unit);
+  }
+  if (meant.empty()) return fmt::format("known units: {}", fmt::join(all, ", "));
+  std::string text;
+  for (const std::string& unit : meant) text += fmt::format("{}'{}'", text.empty() ? "" : " or ", unit);
+  return fmt::format("did you mean {}?", text);
+}
 
 struct DimensionText {
   Dimension dimension;
@@ -194,10 +258,8 @@ class UnitParser {
     for (const NamedUnit& known : kUnits) {
       if (name == known.name) return known.unit;
     }
-    std::vector<std::string> names;
-    for (const NamedUnit& known : kUnits) names.emplace_back(known.name);
     if (name.empty()) fail("is not a unit; write one such as MPa, mm/s or kg/m^3");
-    throw UnitError(fmt::format("unknown unit '{}'; {}", name, suggest(name, names)));
+    throw UnitError(fmt::format("unknown unit '{}'; {}", name, advice_for(name)));
   }
 
   double exponent() {
@@ -261,7 +323,20 @@ std::string example(const Dimension& dimension) {
   return "1 " + base_units(dimension);
 }
 
-Unit parse_unit(const std::string& text) { return UnitParser(text).run(); }
+Unit parse_unit(const std::string& text) {
+  const std::string odd = odd_character(text);
+  if (odd.empty()) return UnitParser(text).run();
+  const std::string start = fmt::format("unknown unit '{}': {}", text, odd);
+  if (text.find("°C") != std::string::npos) throw UnitError(start + "; " + advice_for("C"));
+  std::string plain = with_plain_characters(text);
+  plain.erase(0, plain.find_first_not_of(' '));
+  try {
+    UnitParser(plain).run();
+  } catch (const UnitError&) {
+    throw UnitError(start);
+  }
+  throw UnitError(fmt::format("{}: '{}'", start, plain));
+}
 
 double UnitSystem::factor(const Dimension& dimension) const {
   return std::pow(length, dimension.length) * std::pow(mass, dimension.mass) * std::pow(time, dimension.time);

@@ -224,6 +224,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.settling = std::move(options.settling);
   s.ranks = std::move(options.ranks);
   s.definition = std::move(given);
+  s.warnings = s.definition.warnings;
   Transfer& transfer = s.definition.method.transfer;
   const bool filters = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
   if (filters && transfer.order == 1) transfer = {TransferKind::flip, 0.0, 1};  // the first order is PIC
@@ -289,8 +290,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.watch_energy(0.0, s.material_limit);
   s.foreign_modules = !options.modules.empty();
   s.rates.resize(definition.metrics.size());
+  std::vector<double> unused;
   for (const MetricDefinition& metric : definition.metrics) {
-    if (find_body(metric.body) >= 0 || !metric.number.empty()) continue;  // these have their own names
+    if (is_wrench(metric)) s.wrenches.resize(s.bodies.size());
+    if (!metric.number.empty()) statistic_of(metric, unused);  // throws where the run has no such number
+    if (find_body(metric.body) >= 0 || !metric.number.empty() || !metric.formula.empty()) continue;
     if (needs_start({metric.field})) keep_start();
     s.check_field(metric.field);
   }

@@ -1,5 +1,5 @@
-// The numbers of the summary: statistics of particle fields, or numbers of a rigid body, at the end of the run or their
-// rate of change over a part of it.
+// The numbers of the summary: statistics of particle fields, or numbers of a rigid body, at the end of the run, or
+// their rate of change or mean over a part of it; and formulas of those.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "mpm/math/nearest.hpp"
 #include "state.hpp"
@@ -45,6 +46,7 @@ double statistic(Statistic which, const double* begin, const double* end, Commun
     if (ranks != nullptr) ranks->largest(&own, 1);
     return own;
   };
+  if (which == Statistic::sum) return sum_of_all(std::accumulate(begin, end, 0.0));
   const double count = sum_of_all(static_cast<double>(end - begin));
   if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
   if (which == Statistic::min) return -most_of_all(begin == end ? kNone : -*std::min_element(begin, end));
@@ -56,6 +58,19 @@ double statistic(Statistic which, const double* begin, const double* end, Commun
   double squares = 0.0;
   for (const double* it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
   return std::sqrt(sum_of_all(squares) / count);
+}
+
+/// Of the metrics before it; not a number where one of them is none, or the result is not finite.
+double value_of_formula(const MetricDefinition& metric, const std::vector<std::pair<std::string, double>>& before) {
+  NamedConstants names = metric.constants;
+  for (const auto& [name, value] : before) {
+    if (meaning_in_expressions(name).empty()) names.emplace_back(name, value);
+  }
+  try {
+    return Function::parse(metric.formula, {}, FunctionPlaces::present, names)(0.0);
+  } catch (const FunctionError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 }  // namespace
@@ -93,9 +108,14 @@ void LineFit::add(double t, double y) {
 
 double LineFit::slope() const { return count_ > 1 ? ty_ / tt_ : std::numeric_limits<double>::quiet_NaN(); }
 
+bool is_wrench(const MetricDefinition& metric) {
+  return metric.field.rfind("force_", 0) == 0 || metric.field.rfind("torque_", 0) == 0;
+}
+
 const std::vector<std::string>& Simulation::body_values() {
-  static const std::vector<std::string> kNames = {"x",  "y",  "z",  "vx",        "vy",        "vz",
-                                                  "wx", "wy", "wz", "impulse_x", "impulse_y", "impulse_z"};
+  static const std::vector<std::string> kNames = {
+      "x",         "y",         "z",       "vx",      "vy",      "vz",       "wx",       "wy",       "wz",  "impulse_x",
+      "impulse_y", "impulse_z", "force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z", "mass"};
   return kNames;
 }
 
@@ -103,14 +123,40 @@ double Simulation::body_value(int body, const std::string& name) const {
   const auto& names = body_values();
   const auto place = std::find(names.begin(), names.end(), name) - names.begin();
   const RigidBody& rigid = rigid_body(body);
-  const Vec3 impulse = -state_->impulse("contact/" + rigid.name());
-  const std::array<const Vec3*, 4> vectors = {&rigid.pose().position, &rigid.twist().linear, &rigid.twist().angular,
-                                              &impulse};
   if (place == static_cast<std::ptrdiff_t>(names.size())) {
     throw DefinitionError(
         fmt::format("rigid body '{}' has no number '{}'; {}", rigid.name(), name, suggest(name, names)));
   }
+  if (name == "mass") return rigid.definition().free ? rigid.definition().free->mass : 0.0;
+  const Vec3 impulse = -state_->impulse("contact/" + rigid.name());
+  const auto& wrenches = state_->wrenches;
+  const Wrench wrench = wrenches.empty() ? Wrench() : wrenches[static_cast<std::size_t>(body)].mean;
+  const std::array<const Vec3*, 6> vectors = {
+      &rigid.pose().position, &rigid.twist().linear, &rigid.twist().angular, &impulse, &wrench.force, &wrench.torque};
   return (*vectors[place / 3])[place % 3];
+}
+
+// As reports of contact have them: what was given over the time it took, torque about the origin as it moves.
+void Simulation::State::find_wrenches() {
+  const double now = kNanosecond * static_cast<double>(time);
+  const bool about_axis = axisymmetric(definition.geometry);
+  for (std::size_t b = 0; b < wrenches.size(); ++b) {
+    for (ContactReporter* reporter : reporters) {
+      const ContactLedger* ledger = reporter->ledger_of(bodies[b]);
+      if (ledger == nullptr) continue;
+      const ContactSums& sums = ledger->sums();
+      PeriodWrench& wrench = wrenches[b];
+      if (now > wrench.time) {
+        wrench.mean.force = (sums.impulse - wrench.impulse) / (now - wrench.time);
+        wrench.mean.torque = (sums.angular_impulse - wrench.angular_impulse) / (now - wrench.time);
+      }
+      if (about_axis) wrench.mean = {Vec3(0.0, 0.0, wrench.mean.force.z()), Vec3::Zero()};
+      wrench.time = now;
+      wrench.impulse = sums.impulse;
+      wrench.angular_impulse = sums.angular_impulse;
+      break;
+    }
+  }
 }
 
 std::vector<NamedNumber> Simulation::numbers() const { return state_->numbers(); }
@@ -118,9 +164,12 @@ std::vector<NamedNumber> Simulation::numbers() const { return state_->numbers();
 void Simulation::sample_metrics() {
   State& s = *state_;
   const double now = 1e-9 * static_cast<double>(s.time);
+  s.find_wrenches();
   std::vector<double> values;
   for (std::size_t m = 0; m < s.definition.metrics.size(); ++m) {
     const MetricDefinition& metric = s.definition.metrics[m];
+    if (metric.over && now > metric.over->from + 1e-12 && now <= metric.over->to + 1e-12)
+      s.rates[m].add(now, s.from_first(statistic_of(metric, values)));
     if (metric.at && s.rates[m].count() == 0 && now >= *metric.at - 1e-12) {
       s.rates[m].add(now, s.from_first(statistic_of(metric, values)));
     }
@@ -137,8 +186,12 @@ std::vector<std::pair<std::string, double>> Simulation::metrics() const {
     const MetricDefinition& metric = state_->definition.metrics[m];
     const LineFit& over_time = state_->rates[m];
     double value = 0.0;
-    if (metric.rate) {
+    if (!metric.formula.empty()) {
+      value = value_of_formula(metric, list);
+    } else if (metric.rate) {
       value = over_time.slope();
+    } else if (metric.over) {
+      value = over_time.count() > 0 ? over_time.mean() : std::numeric_limits<double>::quiet_NaN();
     } else if (metric.at && over_time.count() > 0) {
       value = over_time.mean();
     } else {

@@ -129,6 +129,14 @@ void Simulation::State::serialise(StateArchive& archive) {
     const StateArchive::Group group(archive, "rates");
     const StateArchive::Same same(archive);
     LineFit::serialise(archive, rates);
+    for (std::size_t b = 0; b < wrenches.size(); ++b) {
+      const StateArchive::Group of_body(archive, "wrench_" + std::to_string(b));
+      archive.value("time", wrenches[b].time);
+      archive.value("impulse", wrenches[b].impulse);
+      archive.value("angular_impulse", wrenches[b].angular_impulse);
+      archive.value("force", wrenches[b].mean.force);
+      archive.value("torque", wrenches[b].mean.torque);
+    }
   }
   if (archive.reading() && over && !archive.merging()) {
     over->meet_as_read(fields);

@@ -34,6 +34,13 @@ class LineFit {
   double mean_t_ = 0.0, mean_y_ = 0.0, tt_ = 0.0, ty_ = 0.0;
 };
 
+/// What a rigid body is given by contact, on the way from one sync point to the next.
+struct PeriodWrench {
+  double time = 0.0;                                            ///< of the last sync point [s]
+  Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero();  ///< since the start, there [N s], [N m s]
+  Wrench mean;                                                  ///< over the period before it
+};
+
 struct SetView;
 
 /// Sums over particles.
@@ -94,7 +101,8 @@ struct Simulation::State {
   RunTotals totals;              ///< when last asked for
   bool foreign_modules = false;  ///< whether the caller added modules of its own
   bool failed = false;
-  std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
+  std::vector<LineFit> rates;          ///< of each metric; those without a window stay empty
+  std::vector<PeriodWrench> wrenches;  ///< of each rigid body; empty where no metric is a force or a torque
 
   /// Of every field.
   const GridLayout& layout() const { return fields.front()->layout; }
@@ -108,6 +116,8 @@ struct Simulation::State {
   Vec3 impulse(const std::string& account) const;
   /// Of all modules.
   std::vector<NamedNumber> numbers() const;
+  /// At a sync point, for metrics that are forces and torques.
+  void find_wrenches();
   /// Where the particles with ids [first, last), those of some bodies, are in what read_fields() gives.
   std::pair<std::size_t, std::size_t> rows_of(std::uint64_t first, std::uint64_t last) const;
   /// The value that the first rank found.
@@ -149,6 +159,9 @@ struct Simulation::State {
   [[noreturn]] void end_run(const std::string& reason) const;
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
+
+/// Whether a metric is a force or a torque on a rigid body.
+bool is_wrench(const MetricDefinition& metric);
 
 /// @throws DefinitionError when there is none of that name
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);

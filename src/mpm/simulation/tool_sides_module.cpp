@@ -23,10 +23,13 @@ void look_at(const RigidBody& body, RunParts& parts, ToolSides* sides) {
     parts.notes.push_back(start + "the material on its two sides has a velocity field each");
     const ThinTool& tool = sides->add(body, geometry);
     if (tool.distinguished() >= kDistinguished) return;
-    parts.warnings.push_back(
-        fmt::format("rigid body '{}': {:.0f} % of its faces have no other side opposite to them; make it of several "
-                    "bodies, or write sides: one",
-                    body.name(), 100.0 * (1.0 - tool.distinguished())));
+    parts.warnings.push_back(fmt::format(
+        "rigid body '{}' is thinner than 3 cells, and no plate: on {:.0f} % of its faces that have another one "
+        "opposite, the material before the two counts as on one side, and feels each other through the body; "
+        "make it of several bodies, each a plate, use a finer grid.cell, or write sides: one",
+        body.name(), 100.0 * (1.0 - tool.distinguished())));
+  } else if (body.definition().sides == Sides::one && is_thin(body.definition(), geometry, cell)) {
+    parts.notes.push_back(start + "with sides: one the material on its two sides shares nodes");
   } else if (is_thin(body.definition(), geometry, cell)) {
     parts.warnings.push_back(
         start +

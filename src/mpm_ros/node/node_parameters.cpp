@@ -250,6 +250,8 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   if (parameters.scene.empty()) {
     throw ParameterError("parameter ~scene is not given; pass a shipped scene's name or a path, _scene:=blade_in_soil");
   }
+  // tf2 knows no names that begin with a slash; those of tf, its predecessor, did.
+  if (parameters.world_frame[0] == '/') parameters.world_frame.erase(0, 1);
   if (parameters.world_frame.empty()) throw ParameterError("parameter ~world_frame is empty; it must name a frame");
   for (const auto& [name, value] : values) {
     // diagnostic_updater reads its period itself.

@@ -57,7 +57,7 @@ class Timing {
     const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene) + purpose, isa_, threads_);
     const std::int64_t now = mpm::pace::wall_time();
     if (const auto kept = costs_.find(key, now))
-      return Forecast{kept->cost, kept->particles, kept->threads, scene.definition.time.end};
+      return Forecast{kept->cost, kept->particles, kept->threads, scene.definition.time.end, false, false};
     try {
       const auto timed = mpm::pace::time_copy(mpm::build(scene), threads_, isa_, budget, stop_);
       if (timed) costs_.keep(key, {timed->cost, timed->threads, timed->particles, now});

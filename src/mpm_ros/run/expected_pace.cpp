@@ -25,6 +25,17 @@ std::string timed_text(const Forecast& forecast, std::int64_t ago) {
                      ago > 0 ? " " + mpm::pace::duration_text(static_cast<double>(ago)) + " ago" : "");
 }
 
+Forecast forecast_of(const mpm::Scene& scene, const mpm::pace::StepCost& cost, std::uint64_t particles, int threads) {
+  Forecast forecast;
+  forecast.cost = cost;
+  forecast.particles = particles;
+  forecast.threads = threads;
+  forecast.simulated = scene.definition.time.end;
+  forecast.sleeps = scene.definition.sleep.has_value();
+  forecast.tools = !scene.definition.rigid_bodies.empty();
+  return forecast;
+}
+
 std::size_t count(const mpm::SimulationDefinition& definition) {
   std::size_t particles = 0;
   for (const mpm::DeformableBody& body : definition.bodies) particles += body.positions.size();
@@ -70,7 +81,7 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
   const std::int64_t now = mpm::pace::wall_time();
   ExpectedPace pace;
   if (const auto kept = costs.find(key, now)) {
-    pace.forecast = {kept->cost, kept->particles, kept->threads, scene.definition.time.end};
+    pace.forecast = forecast_of(scene, kept->cost, kept->particles, kept->threads);
     pace.origin = timed_text(pace.forecast, now - kept->when);
   } else if (may_time) {
     try {
@@ -125,7 +136,7 @@ std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, m
                          int threads) {
   const auto cost = timer.time(simulation);
   if (!cost) return "pace: not one step could be timed\n";
-  const Forecast timed_now{*cost, simulation.particles(), simulation.threads(), scene.definition.time.end};
+  const Forecast timed_now = forecast_of(scene, *cost, simulation.particles(), simulation.threads());
   const mpm::Isa isa = mpm::choose_isa(simulation.isa());
   const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
   const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), isa, threads);

@@ -34,6 +34,8 @@ void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostre
   const RunOutputs outputs(simulation, Stamps(), output);
   out << fmt::format("kernels: instruction set {}, {} thread{}\n", simulation.isa(), simulation.threads(),
                      simulation.threads() == 1 ? "" : "s");
+  if (const std::string warning = thread_warning(options.threads); !warning.empty())
+    out << "warning: " << warning << "\n";
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
   out << std::flush << explain_pace(scene, simulation, timer, options.threads);

@@ -33,7 +33,9 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
                                                                                  options.ranks}),
       end_(std::llround(scene.definition.time.end * 1e9)),
       outputs_(simulation_, stamps_, options.output),
-      places_(scene.definition.rigid_bodies.size(), Place::outside_yet) {
+      places_(scene.definition.rigid_bodies.size(), Place::outside_yet),
+      slowest_wave_(mpm::slowest_wave(scene)),
+      told_of_speed_(scene.definition.rigid_bodies.size(), false) {
   if (!options.resume.empty()) {
     const mpm::SerialiseMore both = [&](mpm::StateArchive& archive) { serialise(archive, options.more); };
     from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both).time;
@@ -109,6 +111,7 @@ void Run::advance() {
     throw;
   }
   look_for_lost_bodies();
+  look_for_fast_bodies();
   look_for_lost_tips();
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
@@ -157,6 +160,18 @@ void Run::look_for_lost_bodies() {
                       "nothing touches it; end the run before, or enlarge grid.min/grid.max and what it rests on",
                       body.name(), static_cast<double>(simulation_.time()) * 1e-9, at.x(), at.y(), at.z()));
     }
+  }
+}
+
+// Each told once. Of what the scene prescribes the scene's own warnings tell.
+void Run::look_for_fast_bodies() {
+  for (std::size_t b = 0; b < told_of_speed_.size(); ++b) {
+    if (told_of_speed_[b]) continue;
+    const mpm::RigidBody& body = simulation_.rigid_body(static_cast<int>(b));
+    const double speed = body.twist().linear.norm();
+    if (body.drive() == mpm::Drive::functions || !(speed > slowest_wave_.speed)) continue;
+    told_of_speed_[b] = true;
+    warnings_.push_back(mpm::faster_than_waves(body.name(), speed, slowest_wave_));
   }
 }
 

@@ -99,6 +99,8 @@ class OfflineRun {
     }
     for (const std::string& line : aim_.news) err << line << "\n";
     for (const std::string& warning : aim_.warnings) err << "warning: " << warning << "\n";
+    if (const std::string warning = thread_warning(options_.threads); !warning.empty())
+      err << "warning: " << warning << "\n";
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {

@@ -10,6 +10,7 @@
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/scene/units.hpp"
+#include "mpm/simulation/threads.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
@@ -127,6 +128,14 @@ void read_split(const std::string& text, BagOptions& bag) {
         "--bag-split: '{}' is neither a size nor a time with its unit; write one such as 500 MB or 10 s", text));
   }
   bag.split_duration = std::llround(time * 1e9);
+}
+
+std::string thread_warning(int threads) {
+  const auto processors = static_cast<int>(mpm::own_processors().count());
+  if (threads <= processors) return {};
+  return fmt::format(
+      "{} threads on {} processor{}: they wait for each other, and the run is slower than with --threads {}", threads,
+      processors, processors == 1 ? "" : "s", processors);
 }
 
 void check_fields(const OutputOptions& output) {

@@ -131,6 +131,10 @@ RunSweepResult run_all(const RunSweepOptions& options, std::ostream& out, std::o
     return stop_requested();
   });
   checking.clear();
+  if (!laid_out.has_metrics) {
+    err << "warning: the scene has no metrics, so the table of the sweep has no column of results; add some, such as\n"
+           "metrics: {drag: {mean: force_x, of: TOOL}}\n";
+  }
   if (options.jobs == 0) {
     out << fmt::format("{} runs laid out in {}\n", laid_out.runs, study.folder());
     return RunSweepResult::done;

@@ -79,6 +79,7 @@ LaidOut lay_out(const std::string& plan_path, const Study& study, const std::fun
                       study.of_run(run), run));
     }
     laid_out.memory = std::max(laid_out.memory, resolved.memory);
+    laid_out.has_metrics = laid_out.has_metrics || !resolved.scene.definition.metrics.empty();
     scenes.push_back(std::move(resolved.text));
   }
   const std::string base = mpm::sweep::base_scene(plan);

@@ -1,0 +1,149 @@
+#include "mpm/scene/scene_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/material/material_point.hpp"
+#include "mpm/scene/feasible.hpp"
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kMostWeightStrain = 0.1;  ///< of a body under its own weight
+constexpr double kLightest = 5.0;          ///< [kg/m^3]; solids and liquids are heavier, foams among them
+constexpr double kHeaviest = 23000.0;      ///< [kg/m^3]; osmium has 22,590
+constexpr int kTimesOfMotion = 64;         ///< at which a tool's velocity is looked at
+constexpr int kManyStages = 15;            ///< of transport in a step: a pass over the grid each
+constexpr double kRoundOff = 1e-9;
+
+/// Laws whose stiffness is a constant of the material, and resists volume changes.
+bool has_own_stiffness(const LawDefinition& law) {
+  return !std::holds_alternative<IdealGasDefinition>(law) && !std::holds_alternative<CamClayDefinition>(law);
+}
+
+const MaterialDefinition& of_body(const BodyDefinition& body, const Scene& scene) {
+  const auto& materials = scene.definition.materials;
+  return *std::find_if(materials.begin(), materials.end(),
+                       [&](const MaterialDefinition& material) { return material.name == body.material; });
+}
+
+void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
+  const TimeDefinition& time = scene.definition.time;
+  if (!(time.end > 0.0)) return;
+  const double sync = 1e-9 * static_cast<double>(time.sync), periods = time.end / sync;
+  if (std::abs(periods - std::round(periods)) <= std::max(kRoundOff * periods, 1e-6)) return;
+  warnings.push_back(
+      fmt::format("the run goes on to {:.12g} s, the first sync point after its end at {:.12g} s: sync points are "
+                  "{:.9g} s apart, and "
+                  "what is read at the end is read there; write an end that is a multiple of time.sync, or a time.sync "
+                  "that divides it",
+                  std::ceil(periods) * sync, time.end, sync));
+}
+
+/// rho g h over the stiffness of a bar that cannot widen, rho c^2.
+void look_at_weight(const BodyDefinition& body, const Scene& scene, std::vector<std::string>& warnings) {
+  const MaterialDefinition& material = of_body(body, scene);
+  if (!has_own_stiffness(material.law)) return;
+  const Vec3& gravity = scene.definition.gravity;
+  const Box bounds = body.region.bounds();
+  double height = 0.0;  // g h
+  for (const int axis : axes_of(scene)) height += std::abs(gravity[axis]) * (bounds.max[axis] - bounds.min[axis]);
+  const double wave = MaterialPoint(material).wave_speed(), strain = height / (wave * wave);
+  if (!std::isfinite(strain) || strain <= kMostWeightStrain) return;
+  warnings.push_back(
+      fmt::format("body '{}': its own weight would strain it by {:.2g} %: density x gravity x height is {:.3g} Pa, and "
+                  "the stiffness of "
+                  "'{}' {:.3g} Pa; check the units of its stiffness (0.5 is 0.5 Pa, write 0.5 MPa) and of its density",
+                  body.name, 100.0 * strain, material.density * height, material.name, material.density * wave * wave));
+}
+
+/// Only where something weighs: scenes without gravity may have units of their own.
+void look_at_density(const MaterialDefinition& material, std::vector<std::string>& warnings) {
+  if (std::holds_alternative<IdealGasDefinition>(material.law)) return;
+  if (material.density >= kLightest && material.density <= kHeaviest) return;
+  warnings.push_back(fmt::format(
+      "materials.{}.density: {:.3g} kg/m^3 is {}; check its unit (1.6 is 1.6 kg/m^3, write 1.6 g/cm^3 or 1600)",
+      material.name, material.density,
+      material.density < kLightest ? "lighter than any solid or liquid" : "heavier than any matter"));
+}
+
+/// The largest speed of a tool's surface that functions of time prescribe.
+double prescribed_speed(const RigidBodyDefinition& body, double end) {
+  const Box bounds = body.surface->bounds();
+  Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
+  for (double& side : corner) side = std::isfinite(side) ? side : 0.0;
+  const double reach = corner.norm();
+  double most = 0.0;
+  for (int i = 0; i <= kTimesOfMotion; ++i) {
+    const double t = end * i / kTimesOfMotion;
+    try {
+      const Vec3 linear(body.velocity[0](t), body.velocity[1](t), body.velocity[2](t));
+      const Vec3 angular(body.rotation_rate[0](t), body.rotation_rate[1](t), body.rotation_rate[2](t));
+      most = std::max(most, linear.norm() + reach * angular.norm());
+    } catch (const FunctionError&) {
+      continue;  // the run will tell of it
+    }
+  }
+  if (body.free) most = std::max(most, body.free->velocity.linear.norm() + reach * body.free->velocity.angular.norm());
+  return most;
+}
+
+void look_at_speeds(const Scene& scene, std::vector<std::string>& warnings) {
+  const SlowestWave wave = slowest_wave(scene);
+  for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) {
+    const double speed = prescribed_speed(body, scene.definition.time.end);
+    if (speed > wave.speed) warnings.push_back(faster_than_waves(body.name, speed, wave));
+  }
+}
+
+/// Transport that sets the pace of the run.
+void look_at_transport(const Scene& scene, std::vector<std::string>& warnings) {
+  for (const TransportStages& transport : transport_stages(scene)) {
+    if (transport.stages < kManyStages) continue;
+    const bool water = transport.quantity == std::string("pore_pressure");
+    warnings.push_back(fmt::format(
+        "transport.{} sets the pace: it spreads with {:.3g} m^2/s in '{}', and takes {} stages on the grid in each "
+        "step; "
+        "check {}, or use a larger grid.cell",
+        transport.quantity, transport.diffusivity, transport.material, transport.stages,
+        water ? "permeability, which is an area in m^2 (of sand some 1e-11; a conductivity k in m/s is k viscosity / "
+                "(fluid density x gravity), k = 1e-4 m/s some 1e-11 m^2), viscosity and storage"
+              : "the units of its constants"));
+  }
+}
+
+}  // namespace
+
+SlowestWave slowest_wave(const Scene& scene) {
+  SlowestWave slowest;
+  for (const BodyDefinition& body : scene.bodies) {
+    const double speed = MaterialPoint(of_body(body, scene)).wave_speed();
+    if (!slowest.material.empty() && speed >= slowest.speed) continue;
+    slowest = {speed, body.material};
+  }
+  return slowest;
+}
+
+std::string faster_than_waves(const std::string& body, double speed, const SlowestWave& wave) {
+  return fmt::format(
+      "rigid body '{}' moves at {:.3g} m/s, faster than waves in '{}' ({:.3g} m/s), which cannot get out of its way; "
+      "check the units of its motion and of the material's stiffness and density",
+      body, speed, wave.material, wave.speed);
+}
+
+std::vector<std::string> scene_warnings(const Scene& scene) {
+  std::vector<std::string> warnings = scene.definition.warnings;
+  look_at_end(scene, warnings);
+  for (const BodyDefinition& body : scene.bodies) look_at_weight(body, scene, warnings);
+  if (!scene.definition.gravity.isZero(0.0)) {
+    for (const MaterialDefinition& material : scene.definition.materials) look_at_density(material, warnings);
+  }
+  look_at_speeds(scene, warnings);
+  look_at_transport(scene, warnings);
+  return warnings;
+}
+
+}  // namespace mpm

@@ -34,6 +34,8 @@ std::vector<TransportStages> transport_stages(const Scene& scene);
 void check_particles(const Scene& scene, double part = 1.0);
 /// Refuses more steps in a sync period than Simulation takes. @throws SceneError
 void check_steps(const Scene& scene);
+/// Refuses transport whose steps would not come to an end (simulation/transport_work.hpp). @throws SceneError
+void check_transport(const Scene& scene);
 /// What to say when memory was refused: the number of particles, and the least memory that they need.
 std::string lack_of_memory(const Scene& scene);
 

@@ -4,6 +4,7 @@
 //   mpm::Simulation simulation(scene, {2});  // on two threads; the same as of mpm::build(scene)
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -108,7 +109,9 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
 /// Names and first comment lines of the shipped scenes.
 std::vector<std::pair<std::string, std::string>> shipped_scenes();
 /// Fills the bodies with particles and checks them against the grid and each other. `ranks`: where the run is over
-/// several; then each gets its own particles alone, and the call is collective. @throws SceneError
-SimulationDefinition build(const Scene& scene, Communicator* ranks = nullptr);
+/// several; then each gets its own particles alone, and the call is collective. `interrupt`: as in SimulationOptions,
+/// asked by a process that builds alone. @throws SceneError, StoppedError
+SimulationDefinition build(const Scene& scene, Communicator* ranks = nullptr,
+                           const std::function<bool()>& interrupt = {});
 
 }  // namespace mpm

@@ -74,6 +74,12 @@ struct BodyPart {
   std::uint64_t whole = 0;             ///< particles of the body on all ranks
 };
 
+/// A lattice of particles that is a body's own: centre i along an axis is at origin + (i + 1/2) spacing.
+struct ParticleLattice {
+  Vec3 origin = Vec3::Zero();   ///< [m]
+  Vec3 spacing = Vec3::Zero();  ///< [m]
+};
+
 struct DeformableBody {
   std::string name;
   std::string material;                      ///< name in SimulationDefinition::materials
@@ -87,7 +93,9 @@ struct DeformableBody {
   std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
   double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
-  std::optional<BodyPart> part;  ///< without it all particles of the body are here
+  std::optional<ParticleLattice> lattice;  ///< without it the grid's: particles_per_direction from grid.min on
+  std::string filling;                     ///< what differs from the grid's lattice, for reports; may be empty
+  std::optional<BodyPart> part;            ///< without it all particles of the body are here
 };
 
 /// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).

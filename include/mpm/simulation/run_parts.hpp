@@ -50,6 +50,7 @@ struct RunParts {
   std::vector<std::string>&warnings, &notes;  ///< one line each
   /// Finds the energies of the run, between two steps; what it returns holds until they are found again.
   std::function<const EnergyReport&()> energies;
+  const std::function<bool()>& interrupt;  ///< as in SimulationOptions
 
   // Modules that later ones in the list need; null if the scene does not have them.
   const ToolSides* sides = nullptr;

@@ -17,6 +17,7 @@
 #include "mpm/kernel/isa.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/math/stopped.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/particle_choice.hpp"
@@ -33,12 +34,6 @@ class DefinitionError : public Error {
 /// The physics failed (exit code 3): J <= 0, a value that is not finite, a particle outside the domain.
 /// what() names the particle, the step, the place and the likely remedy.
 class PhysicsError : public Error {
- public:
-  using Error::Error;
-};
-
-/// The run was asked to stop (SimulationOptions::stop) while it settled, or within a sync period: it cannot go on.
-class StoppedError : public Error {
  public:
   using Error::Error;
 };
@@ -67,18 +62,20 @@ struct SimulationOptions {
   /// result depends on particles is collective, and particle fields are given to the first rank alone. A definition
   /// that has been built for ranks has each rank's own particles; of any other every rank has all, and leaves its own.
   std::shared_ptr<Communicator> ranks = {};
+  /// Asked, often, while the run is put together and within a step of many stages; true: see StoppedError.
+  std::function<bool()> interrupt = {};
 };
 
 class Simulation {
  public:
-  /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError; StoppedError while it settles
+  /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError; StoppedError when asked to stop
   /// Takes over the definition, whose particle data are freed as soon as they have been read.
   explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
   /// Of a scene (scene/scene.hpp), which lies in a layer above: its build() is found where the scene is declared.
   /// @throws SceneError, and what the other constructor throws
   template <class AnyScene, class Built = decltype(build(std::declval<const AnyScene&>()))>
   explicit Simulation(const AnyScene& scene, SimulationOptions options = {})
-      : Simulation(Built(build(scene, options.ranks.get())), options) {}
+      : Simulation(Built(build(scene, options.ranks.get(), options.interrupt)), options) {}
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

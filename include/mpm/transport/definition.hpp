@@ -113,6 +113,8 @@ struct PairHeatDefinition {
   double conductance = 0.0;  ///< [W/(m^2 K)]
 };
 
+inline constexpr double kStefanBoltzmann = 5.670374419e-8;  ///< [W/(m^2 K^4)]
+
 struct QuantityDefinition {
   Transported quantity = Transported::temperature;
   RateMethod method = RateMethod::nodal_capacity;
@@ -129,6 +131,17 @@ struct QuantityDefinition {
   std::vector<ToolHeatDefinition> tools;
   std::vector<PairHeatDefinition> pairs;
 };
+
+/// Of a volume [J/(m^3 K)], [1], [1/Pa]: the least that it is. `density` [kg/m^3]: of the material at the start.
+double least_capacity(const TransportMaterial& material, Transported quantity, double density);
+/// Largest conductivity over that [m^2/s], along the direction that conducts best.
+double largest_diffusivity(const TransportMaterial& material, Transported quantity, double density);
+/// Longest update that one stage can take, Dx^2 C / (4 K) [s]; infinite where nothing conducts.
+double stable_step(double cell, double diffusivity);
+/// Largest change of a flux with the quantity of the surface, up to `most` of it [content/(m^2 s quantity)].
+double surface_conductance(const FluxDefinition& flux, double most);
+/// Longest update with such a surface, which is read once in it: it must not overshoot [s].
+double longest_update(double cell, double least_capacity, double conductance);
 
 /// Of a body at a place at the start. @throws FunctionError
 double initial_value(const QuantityDefinition& quantity, const std::string& body, const Vec3& place);

@@ -12,8 +12,6 @@
 
 namespace mpm {
 
-inline constexpr double kStefanBoltzmann = 5.670374419e-8;  ///< [W/(m^2 K^4)]
-
 struct FluxTerm {
   FluxDefinition definition;
   int set = 0;

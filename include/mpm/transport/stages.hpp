@@ -17,6 +17,8 @@ namespace mpm {
 /// Number of stages for an update of `ratio` stable steps: 1, or an odd number from 3 on, which damps the shortest
 /// waves.
 int stages_for(double ratio);
+/// The same number for any ratio, to within 2.
+double stages_needed(double ratio);
 
 class Stages {
  public:
@@ -31,9 +33,15 @@ class Stages {
   /// `flow(value, to)` sets `to` to Q of the values [content/s], sources among it; `hold(value, part)` sets the values
   /// that are prescribed once this part of `dt` has gone by. `start`: T_0 of the nodes of `blocks` blocks, `capacity`:
   /// c; nodes that have `least` of it or less keep their value until the end. Sets `content` to E after `dt`.
+  /// `between()` is called before each stage but the first; it may throw.
+  template <class Flow, class Hold, class Between>
+  void advance(int blocks, int threads, double dt, int stages, const NodalField& start, const NodalField& capacity,
+               double least, Flow&& flow, Hold&& hold, NodalField& content, Between&& between);
   template <class Flow, class Hold>
   void advance(int blocks, int threads, double dt, int stages, const NodalField& start, const NodalField& capacity,
-               double least, Flow&& flow, Hold&& hold, NodalField& content);
+               double least, Flow&& flow, Hold&& hold, NodalField& content) {
+    advance(blocks, threads, dt, stages, start, capacity, least, flow, hold, content, [] {});
+  }
 
  private:
   /// b_j of the method.
@@ -46,9 +54,10 @@ class Stages {
   NodalField flow_, first_, now_, before_, values_;
 };
 
-template <class Flow, class Hold>
+template <class Flow, class Hold, class Between>
 void Stages::advance(int blocks, int threads, double dt, int stages, const NodalField& start,
-                     const NodalField& capacity, double least, Flow&& flow, Hold&& hold, NodalField& content) {
+                     const NodalField& capacity, double least, Flow&& flow, Hold&& hold, NodalField& content,
+                     Between&& between) {
   const auto nodes = static_cast<std::ptrdiff_t>(blocks) * nodes_;
   content.resize(blocks);
   flow(start, stages == 1 ? content : first_);
@@ -71,6 +80,7 @@ void Stages::advance(int blocks, int threads, double dt, int stages, const Nodal
     t[i] = from[i] + (c[i] > least ? e1[i] / c[i] : 0.0);
   }
   for (int j = 2; j <= stages; ++j) {
+    between();
     // The values are those of stage j - 1, at this part of the update.
     hold(values_, j == 2 ? part(1) * whole : 0.25 * ((j - 1.0) * (j - 1.0) + (j - 1.0) - 2.0) * whole);
     flow(values_, flow_);

@@ -10,6 +10,12 @@
 // sqrt(K rho C), as at two half spaces that meet (H. S. Carslaw, J. C. Jaeger (1959), Conduction of Heat in
 // Solids, 2.15).
 //
+// Conduction between surfaces may be fast against what a node can take. Each node therefore comes nearer to what it
+// touches as it would by itself in the time of the step, by exp(-h A t / c), which is the explicit h A t where that is
+// small, and never overshoots. Of two that both change, h A t counts over both their capacities. A touch gives each of
+// its nodes the heat of that node's own temperature, so that a light node at the edge of a body does not go beyond the
+// tool's temperature while heavier ones behind it are still cold.
+//
 // Weak: over several ranks, friction at a wall or between two bodies whose place no longer has material when it is to
 // be given is lost; one process gives it at the next place.
 #pragma once
@@ -78,6 +84,12 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   /// Whether a touch, or a meeting at this node, counts to sums here.
   bool counts(const Touch& touch) const;
   bool counts(int field, NodeRef node) const { return fields_[field]->counts(node.block); }
+  /// Adds up conductance times time of all that touches at each node, and at each tool that has a capacity [J/K].
+  void load();
+  /// Of the exchange at a node in this update: how many of its time constants go by.
+  double constants(const std::vector<NodalQuantity>& nodes, int field, const NodeRef& ref) const;
+  /// Sum of a touch's shares in nodes where there is material.
+  double whole_of(const Touch& touch) const;
   void give(const Touch& touch, std::vector<NodalQuantity>& nodes, double start, double dt);
   void give(const Meeting& meeting, std::vector<NodalQuantity>& nodes, double dt);
 
@@ -90,7 +102,9 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   std::vector<Share> shares_;
   std::vector<Touch> touches_;
   std::vector<Meeting> meetings_;
-  double kept_ = 0.0;  ///< of friction where no material is any more: for the next place [J]
+  std::vector<NodalField> loads_;   ///< of each field, at the nodes that are touched in this update [J/K]
+  std::vector<double> tool_loads_;  ///< of each tool [J/K]
+  double kept_ = 0.0;               ///< of friction where no material is any more: for the next place [J]
   double rubbed_ = 0.0, given_ = 0.0;
   ContentAccount friction_, conducted_;
 };

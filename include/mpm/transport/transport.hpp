@@ -38,9 +38,14 @@ class Transport final : public Stage {
 
   std::string name() const override { return "transport"; }
   Ranks ranks(Hook) const override { return {Rank::transport}; }
+  void step_begun(StepContext& context) override;
   void forces_gathered(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
-  void at_sync(std::int64_t time) override { sync_end_ = time + sync_; }
+  void at_sync(std::int64_t time) override {
+    sync_end_ = time + sync_;
+    finish_expansion();
+  }
+  void before_sort() override { finish_expansion(); }
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void energies(EnergyReport& report) const override;
   void numbers(std::vector<NamedNumber>& list) const override;
@@ -49,12 +54,20 @@ class Transport final : public Stage {
   void serialise(StateArchive& archive) override;
   void hashed(std::vector<double>& numbers) const override;
 
-  /// Content gained by particles less that of all accounts, over what was exchanged: round-off.
+  /// Content gained by particles less that of all accounts, over what was exchanged: round-off. An error that is no
+  /// more than round-off of what the particles hold, relative to that: what is exchanged may be next to nothing.
   double budget_error(const TransportedField& field) const;
 
  private:
   /// Takes the free strain nearer to that of the quantities, by a part of what is left.
   void expand(double part);
+  /// Books the second half of the work of an expansion, once the stress has taken it.
+  void finish_expansion();
+  /// Trace of a particle's Kirchhoff stress over initial density [J/kg].
+  double pull(const ParticleSet& set, int p) const;
+  /// Of term(p) over the particles awake, in groups: the same bits on any number of threads.
+  template <class Term>
+  double sum_over(const ParticleSet& set, Term&& term);
 
   TransportParts parts_;
   std::int64_t sync_, sync_end_;
@@ -64,7 +77,10 @@ class Transport final : public Stage {
   std::unique_ptr<PoreWater> water_;
   SurfaceHeat* surface_ = nullptr;
   std::vector<double> sums_;
-  double expansion_work_ = 0.0;  ///< of expansion against the stress [J]
+  /// Of expansion against the stress, the mean of that before and after it [J]: what the stress has taken, and the
+  /// first half of what it has not.
+  double expansion_work_ = 0.0, expansion_begun_ = 0.0;
+  bool begun_ = false;  ///< the stress has not taken it everywhere
   bool expands_ = false;
   double expands_for_ = 0.0;  ///< time in which the free strain reaches that of the last update [s]
   ImpulseAccount hoop_;

@@ -27,6 +27,7 @@
 // needs nothing, since no area is there. Source: method reference 9.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -35,6 +36,7 @@
 
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/math/stopped.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/module.hpp"
@@ -45,6 +47,9 @@
 #include "mpm/transport/stages.hpp"
 
 namespace mpm {
+
+/// Of a stable step: with the shape function dirac longer updates grow at nodes that a point barely reaches.
+inline constexpr double kOfPoints = 0.25;
 
 /// Values that contradict each other, or a quantity that is out of its range. what() names the place.
 class TransportError : public ModuleError {
@@ -59,11 +64,12 @@ struct TransportParts {
   GeometryKind geometry;
   ShapeKind shape;
   int threads;
-  std::vector<int> materials;     ///< of each set, its index among the definition's
-  std::vector<double> densities;  ///< of each set, initial [kg/m^3]
-  Vec3 gravity;                   ///< [m/s^2]
-  bool cracked = false;           ///< particles near cracks choose a field at every node
-  Communicator* ranks = nullptr;  ///< where the run is over several
+  std::vector<int> materials;            ///< of each set, its index among the definition's
+  std::vector<double> densities;         ///< of each set, initial [kg/m^3]
+  Vec3 gravity;                          ///< [m/s^2]
+  bool cracked = false;                  ///< particles near cracks choose a field at every node
+  Communicator* ranks = nullptr;         ///< where the run is over several
+  std::function<bool()> interrupt = {};  ///< whether the run is asked to stop; may be empty
 };
 
 class TransportedField {
@@ -83,7 +89,7 @@ class TransportedField {
   /// Takes local gains since the last call, after strain has been computed.
   void collect();
   /// Moves the quantity over `dt`, from `start` [s], after collect(). `reported`: particles see the new value in any
-  /// case, else only if something in the run needs it. @throws TransportError
+  /// case, else only if something in the run needs it. @throws TransportError; StoppedError between two stages
   void update(double start, double dt, bool reported);
   /// Whether a source must not wait for its update.
   bool pending() const;
@@ -107,6 +113,8 @@ class TransportedField {
 
   /// What came in since the start by each source, condition and local gain.
   std::vector<ContentAccount> accounts() const;
+  /// Sum over the particles here of what they hold, by its size [content]: heat above the absolute zero.
+  double content() const;
   /// What the particles have gained since the start [content].
   double gained() const { return gained_; }
   void serialise(StateArchive& archive);
@@ -159,6 +167,8 @@ class TransportedField {
   void finish(double start, double dt, bool sees);
   void follow_ramps(double start, double dt);
   void check_range() const;
+  /// @throws StoppedError
+  void ask_to_stop();
 
   QuantityDefinition definition_;
   TransportParts parts_;
@@ -196,6 +206,7 @@ class TransportedField {
   ContentAccount prescribed_, volume_sources_;
   std::vector<ContentAccount> gain_accounts_;
   double gained_ = 0.0;
+  std::uint32_t asked_ = 0;
 };
 
 /// "(1, 0, 2) m"

@@ -59,31 +59,35 @@ void check_place(const BodyDefinition& body, const Scene& scene) {
 /// Fills `values` with `at` of every particle's position. @throws SceneError when a function has no value there.
 template <class T, class At>
 void evaluate(const BodyDefinition& body, const DeformableBody& filled, const char* what, std::vector<T>& values,
-              At&& at) {
+              StopCheck& check_stop, At&& at) {
   values.reserve(filled.positions.size());
   try {
-    for (const Vec3& point : filled.positions) values.push_back(at(point));
+    for (const Vec3& point : filled.positions) {
+      check_stop();
+      values.push_back(at(point));
+    }
   } catch (const FunctionError& error) {
     throw SceneError(fmt::format("{}: initial {} of body '{}': {}", body.initial_where, what, body.name, error.what()));
   }
 }
 
-void set_initial(const BodyDefinition& body, DeformableBody& filled) {
+void set_initial(const BodyDefinition& body, DeformableBody& filled, const std::function<bool()>& interrupt) {
+  StopCheck check_stop(interrupt, "the bodies were given their initial state");
   bool at_rest = true;
   for (const Function& component : body.velocity) at_rest = at_rest && component.is_constant() && component(0.0) == 0.0;
   if (!at_rest) {
     const auto& v = body.velocity;
-    evaluate(body, filled, "velocity", filled.velocities,
+    evaluate(body, filled, "velocity", filled.velocities, check_stop,
              [&](const Vec3& x) { return Vec3(v[0](0.0, x), v[1](0.0, x), v[2](0.0, x)); });
   }
   if (body.stress) {
     const auto& s = *body.stress;
-    evaluate(body, filled, "stress", filled.stresses, [&](const Vec3& x) {
+    evaluate(body, filled, "stress", filled.stresses, check_stop, [&](const Vec3& x) {
       return Symmetric3<double>{s[0](0.0, x), s[1](0.0, x), s[2](0.0, x), s[3](0.0, x), s[4](0.0, x), s[5](0.0, x)};
     });
   }
   if (body.temperature) {
-    evaluate(body, filled, "temperature", filled.temperatures,
+    evaluate(body, filled, "temperature", filled.temperatures, check_stop,
              [&](const Vec3& x) { return (*body.temperature)(0.0, x); });
   }
   filled.yy_follows = body.yy_follows;
@@ -97,6 +101,8 @@ DeformableBody fill(const BodyDefinition& body, const Filling& filling, OwnPart*
   filled.material = body.material;
   filled.field = body.field;
   filled.particle_volume = filling.particle_volume();
+  filled.lattice = filling.lattice();
+  filled.filling = filling.text();
   // Counted first, because a growing list needs up to three times its memory.
   if (part == nullptr) {
     filled.positions.reserve(filling.places());
@@ -174,7 +180,7 @@ Box Region::bounds() const {
   return bounds;
 }
 
-SimulationDefinition build(const Scene& scene, Communicator* ranks) try {
+SimulationDefinition build(const Scene& scene, Communicator* ranks, const std::function<bool()>& interrupt) try {
   SimulationDefinition definition = scene.definition;
   definition.warnings = scene_warnings(scene);
   double half_spacing = std::numeric_limits<double>::infinity();
@@ -182,11 +188,12 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks) try {
   for (const BodyDefinition& body : scene.bodies) check_place(body, scene);
   check_particles(scene, ranks == nullptr ? 1.0 : static_cast<double>(ranks->on_this_machine()) / ranks->size());
   check_steps(scene);
+  check_transport(scene);
   std::optional<OwnPart> part;
   if (ranks != nullptr) part.emplace(*ranks, layout_of(definition));
   std::vector<Filling> fillings;
   for (const BodyDefinition& body : scene.bodies) {
-    fillings.emplace_back(body, scene);
+    fillings.emplace_back(body, scene, ranks == nullptr ? interrupt : nullptr);  // ranks stop together only
     FillingChecks checks(body, scene, half_spacing);
     if (part) {
       part->begin_body();
@@ -201,7 +208,7 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks) try {
     DeformableBody filled = fill(body, fillings.back(), nullptr, 0);
     for (const Vec3& point : filled.positions) checks.look(point);
     checks.end();
-    set_initial(body, filled);
+    set_initial(body, filled, interrupt);
     definition.bodies.push_back(std::move(filled));
   }
   if (part) {
@@ -209,7 +216,7 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks) try {
     agree<SceneError>(ranks, [&] {
       for (std::size_t b = 0; b < fillings.size(); ++b) {
         definition.bodies.push_back(fill(scene.bodies[b], fillings[b], &*part, b));
-        set_initial(scene.bodies[b], definition.bodies.back());
+        set_initial(scene.bodies[b], definition.bodies.back(), nullptr);
       }
     });
   }

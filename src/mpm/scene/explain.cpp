@@ -74,13 +74,14 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
       particles += count;
       double lengths = count;  // lengths of the rings; their number in other geometries
       if (axisymmetric(built.geometry)) {
-        const double half = 0.5 * particle_spacing(scene, 0);
+        const double half = 0.5 * (body.lattice ? body.lattice->spacing.x() : particle_spacing(scene, 0));
         const bool whole = built.method.axis.domains == AxisDomains::whole;
         lengths = 0.0;
         for (const Vec3& place : body.positions) lengths += ring_length(place.x(), half, whole);
       }
-      text += fmt::format("body {}: {:.0f} particles of {} ({}), {:.6g} kg\n", body.name, count, material.name,
-                          law_name(material.law), lengths * body.particle_volume * material.density);
+      text += fmt::format("body {}: {:.0f} particles of {} ({}), {:.6g} kg{}\n", body.name, count, material.name,
+                          law_name(material.law), lengths * body.particle_volume * material.density,
+                          body.filling.empty() ? "" : ": " + body.filling);
     }
   }
   for (const RigidBodyDefinition& rigid : built.rigid_bodies) text += rigid_text(rigid, built);

@@ -13,6 +13,7 @@
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/terrain.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/transport_work.hpp"
 #include "mpm/transport/stages.hpp"
 
 namespace mpm {
@@ -122,6 +123,16 @@ void check_particles(const Scene& scene, double part) {
           fmt::format("{}, which need at least {:.3g} GB of memory; {:.3g} GB can be had here: make grid.cell larger",
                       start, total * bytes / kGigabyte, memory / kGigabyte));
     }
+  }
+}
+
+void check_transport(const Scene& scene) {
+  std::vector<std::string> materials;
+  for (const BodyDefinition& body : scene.bodies) materials.push_back(body.material);
+  try {
+    transport_warning(scene.definition, materials);
+  } catch (const DefinitionError& error) {
+    throw SceneError(fmt::format("{}: {}", scene.path, error.what()));
   }
 }
 

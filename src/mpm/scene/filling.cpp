@@ -8,20 +8,15 @@
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/tool_size.hpp"
+#include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
 
-Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
-  const GridDefinition& grid = scene.definition.grid;
-  const double spacing = particle_spacing(scene, axis);
-  const double all = std::round((grid.max[axis] - grid.min[axis]) / spacing);
-  // One position more on either side; Region::contains() decides.
-  const double first = std::floor((bounds.min[axis] - grid.min[axis]) / spacing) - 1.0;
-  const double last = std::ceil((bounds.max[axis] - grid.min[axis]) / spacing) + 1.0;
-  return {grid.min[axis], spacing, static_cast<std::int64_t>(std::max(0.0, first)),
-          static_cast<std::int64_t>(std::min(all - 1.0, last))};
-}
+constexpr std::uint32_t kPlacesBetweenLooks = 1024;  ///< at whether to stop
+constexpr int kPartsOfPlace = 4;       ///< of a spacing, for what is cut out of places that it does not fill
+constexpr double kSameVolume = 1e-8;   ///< round-off of a sum over all particles
+constexpr double kSameCutOut = 0.002;  ///< what is cut out evens out over many places, and is found about as well
 
 Box world_bounds(const RigidBodyDefinition& rigid) {
   const Box local = rigid.surface->bounds();
@@ -66,13 +61,17 @@ bool StandingTool::holds(const Vec3& place, double depth, double& deep) const {
   return true;
 }
 
-Filling::Filling(const BodyDefinition& body, const Scene& scene) : body_(&body), scene_(&scene), axes_(axes_of(scene)) {
-  lattices_.fill({0.0, 0.0, 0, 0});
-  const Box bounds = body.region.bounds();
-  for (const int axis : axes_) {
-    lattices_[axis] = lattice(scene, bounds, axis);
-    volume_ *= lattices_[axis].spacing;
-  }
+bool StandingTool::may_hold(const Vec3& place, double reach) const {
+  return bounds_.intersects({place.array() - reach, place.array() + reach});
+}
+
+Filling::Filling(const BodyDefinition& body, const Scene& scene, const std::function<bool()>& interrupt)
+    : body_(&body),
+      scene_(&scene),
+      axes_(axes_of(scene)),
+      lattices_(body_lattice(body, scene)),
+      check_stop_(interrupt, "the bodies were filled with particles", kPlacesBetweenLooks) {
+  for (const int axis : axes_) volume_ *= lattices_[axis].spacing;
   volume_ *= scene.definition.across();
   each_place([this](const Vec3&) { ++places_; });
   if (places_ == 0) {
@@ -80,6 +79,83 @@ Filling::Filling(const BodyDefinition& body, const Scene& scene) : body_(&body),
         fmt::format("{}: body '{}' holds no particle; make it larger or grid.cell smaller", body.where, body.name));
   }
   cut_out_ = cut_outs(body, scene);
+  share_volume();
+}
+
+std::optional<ParticleLattice> Filling::lattice() const {
+  if (std::none_of(lattices_.begin(), lattices_.end(), [](const Lattice& along) { return along.own; })) return {};
+  ParticleLattice own;
+  for (const int axis : axes_) {
+    own.origin[axis] = lattices_[axis].origin;
+    own.spacing[axis] = lattices_[axis].spacing;
+  }
+  return own;
+}
+
+std::string Filling::text() const {
+  std::string text;
+  for (const int axis : axes_) {
+    const Lattice& along = lattices_[axis];
+    if (!along.own) continue;
+    text += fmt::format("{}{:.4g} m along {} for the grid's {:.4g} m", text.empty() ? "particles " : ", ",
+                        along.spacing, axis_name(axis), particle_spacing(*scene_, axis));
+  }
+  if (!text.empty()) text += ", so that they end at the body's faces, which do not lie on the grid's lattice";
+  if (scale_ == 1.0) return text;
+  return text + fmt::format("{}particles of {:.4g} times the volume of their places, which add up to that of the body",
+                            text.empty() ? "" : "; ", scale_);
+}
+
+double Filling::turn(double x) const { return axisymmetric(scene_->definition.geometry) ? kTurn * x : 1.0; }
+
+double Filling::cut_out_volume() const {
+  double reach = 0.0;
+  std::array<int, 3> parts{1, 1, 1};
+  for (const int axis : axes_) {
+    reach = std::max(reach, 0.5 * lattices_[axis].spacing);
+    parts[axis] = kPartsOfPlace;
+  }
+  const double share = volume_ / (parts[0] * parts[1] * parts[2]);
+  double sum = 0.0;
+  const Lattice &x = lattices_[0], &y = lattices_[1], &z = lattices_[2];
+  const auto at = [](const Lattice& along, std::int64_t i, int k, int of) {
+    return along.origin + (static_cast<double>(i) + (k + 0.5) / of) * along.spacing;
+  };
+  for (std::int64_t k = z.first; k <= z.last; ++k) {
+    for (std::int64_t j = y.first; j <= y.last; ++j) {
+      for (std::int64_t i = x.first; i <= x.last; ++i) {
+        check_stop_();
+        const Vec3 middle(x.center(i), y.center(j), z.center(k));
+        if (std::none_of(cut_out_.begin(), cut_out_.end(),
+                         [&](const StandingTool& tool) { return tool.may_hold(middle, reach); }))
+          continue;
+        for (int part = 0; part < parts[0] * parts[1] * parts[2]; ++part) {
+          const Vec3 place(at(x, i, part % parts[0], parts[0]), at(y, j, part / parts[0] % parts[1], parts[1]),
+                           at(z, k, part / (parts[0] * parts[1]), parts[2]));
+          if (body_->region.contains(place) && is_cut_out(place)) sum += share * turn(place.x());
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+void Filling::share_volume() {
+  double wanted = body_volume(body_->region, *scene_, lattices_), filled = 0.0;
+  if (!cut_out_.empty()) wanted -= cut_out_volume();
+  const bool rings = axisymmetric(scene_->definition.geometry);
+  const bool whole = scene_->definition.method.axis.domains == AxisDomains::whole;
+  const double half = 0.5 * lattices_[0].spacing;
+  if (rings || !cut_out_.empty()) {
+    each([&](const Vec3& place) { filled += rings ? ring_length(place.x(), half, whole) : 1.0; });
+  } else {
+    filled = static_cast<double>(places_);
+  }
+  filled *= volume_;
+  const double same = cut_out_.empty() ? kSameVolume : kSameCutOut;
+  if (!(filled > 0.0 && wanted > 0.0) || std::abs(wanted / filled - 1.0) < same) return;
+  scale_ = wanted / filled;
+  volume_ *= scale_;
 }
 
 void Filling::check_left(std::uint64_t particles) const {
@@ -130,7 +206,7 @@ bool Filling::has_neighbour(const Vec3& place, int axis, bool above) const {
 
 FillingChecks::FillingChecks(const BodyDefinition& body, const Scene& scene, double half_spacing)
     : body_(&body), half_spacing_(half_spacing) {
-  // Bodies share one lattice, so they overlap where both contain the same position.
+  // A particle of this body that lies in another has the room of particles there.
   for (const BodyDefinition& other : scene.bodies) {
     if (&other == &body) break;
     if (other.region.bounds().intersects(body.region.bounds())) overlaps_.push_back({&other});
@@ -155,8 +231,8 @@ void FillingChecks::end() const {
   for (const Overlap& overlap : overlaps_) {
     if (overlap.count == 0) continue;
     throw SceneError(
-        fmt::format("{}: bodies '{}' and '{}' overlap: both hold {} of the same particles, one at ({:.6g}, {:.6g}, "
-                    "{:.6g}) m; move one of them",
+        fmt::format("{}: bodies '{}' and '{}' overlap: both hold {} of the particles of the first, one at ({:.6g}, "
+                    "{:.6g}, {:.6g}) m; move one of them",
                     body_->where, body_->name, overlap.other->name, overlap.count, overlap.place.x(), overlap.place.y(),
                     overlap.place.z()));
   }

@@ -1,26 +1,21 @@
-// The particles of a body, one after another: places of the grid's lattice in its region, moved by jitter, without
-// those that are cut out. A walk over them finds them anew, the same on each, so that nobody has to hold all of them.
-// Private to this folder.
+// The particles of a body, one after another: places of its lattice in its region, moved by jitter, without those that
+// are cut out. A walk over them finds them anew, the same on each, so that nobody has to hold all of them. Together
+// they have the volume of what they fill. Private to this folder.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "body_lattice.hpp"
+#include "mpm/math/stopped.hpp"
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-
-/// Lattice positions along an axis whose centres can lie between two bounds: centre i is at origin + (i + 1/2) spacing.
-struct Lattice {
-  double origin;
-  double spacing;
-  std::int64_t first;
-  std::int64_t last;
-  double center(std::int64_t i) const { return origin + (static_cast<double>(i) + 0.5) * spacing; }
-  double count() const { return static_cast<double>(std::max<std::int64_t>(0, last - first + 1)); }
-};
 
 /// A rigid body as it stands at the start, asked about many places.
 class StandingTool {
@@ -29,6 +24,8 @@ class StandingTool {
   const std::string& name() const { return rigid_->name; }
   /// Whether a place lies in it by more than `depth` [m], and how deep.
   bool holds(const Vec3& place, double depth, double& deep) const;
+  /// False where no place within `reach` [m] along each axis lies in it.
+  bool may_hold(const Vec3& place, double reach) const;
 
  private:
   const RigidBodyDefinition* rigid_;
@@ -37,12 +34,16 @@ class StandingTool {
 
 class Filling {
  public:
-  /// Both outlive it. @throws SceneError for a body without a place, or one that something is cut out of that is not
-  /// there
-  Filling(const BodyDefinition& body, const Scene& scene);
+  /// Both outlive it. `interrupt`: as build() has it. @throws SceneError for a body without a place, or one that
+  /// something is cut out of that is not there; StoppedError
+  Filling(const BodyDefinition& body, const Scene& scene, const std::function<bool()>& interrupt);
 
   double particle_volume() const { return volume_; }  ///< [m^3], as DeformableBody::particle_volume
-  std::size_t places() const { return places_; }      ///< before any is cut out
+  /// Where it is not the grid's.
+  std::optional<ParticleLattice> lattice() const;
+  /// How the particles differ from those of the grid's lattice; empty where they do not.
+  std::string text() const;
+  std::size_t places() const { return places_; }  ///< before any is cut out
   /// Refuses a body of which nothing is left. @throws SceneError
   void check_left(std::uint64_t particles) const;
   /// visit(place) for every particle, in the order of their numbers.
@@ -66,6 +67,7 @@ class Filling {
       for (std::int64_t j = y.first; j <= y.last; ++j) {
         for (std::int64_t i = x.first; i <= x.last; ++i) {
           const Vec3 point(x.center(i), y.center(j), z.center(k));
+          check_stop_();
           if (body_->region.contains(point)) visit(point);
         }
       }
@@ -73,14 +75,21 @@ class Filling {
   }
   Vec3 jittered(const Vec3& point, std::mt19937_64& random) const;
   bool is_cut_out(const Vec3& place) const;
+  /// What a volume about the axis counts by its radius; else 1.
+  double turn(double x) const;
+  /// Volume of the region that lies in what is cut out [m^3].
+  double cut_out_volume() const;
+  /// Gives the particles the volume of what they fill.
+  void share_volume();
 
   const BodyDefinition* body_;
   const Scene* scene_;
   std::vector<int> axes_;
   std::array<Lattice, 3> lattices_;
   std::vector<StandingTool> cut_out_;
-  double volume_ = 1.0;
+  double volume_ = 1.0, scale_ = 1.0;  ///< scale_: of a particle's volume over that of its place
   std::size_t places_ = 0;
+  mutable StopCheck check_stop_;
 };
 
 /// Whether a body's particles lie in other bodies.

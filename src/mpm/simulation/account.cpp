@@ -54,7 +54,8 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
       sum.kinetic += mass * (0.5 * speed2);
       sum.potential -= mass * height;
       const ParticleTensors stressed = set.free_strain < 0 ? t : without_free_strain(set, p, t);
-      sum.elastic += mass * law.elastic_energy(stressed.f, stressed.tau, stressed.j);
+      // The law counts energy by the volume that it sees, which what expands has more of.
+      sum.elastic += mass * (t.j / stressed.j) * law.elastic_energy(stressed.f, stressed.tau, stressed.j);
       if constexpr (LawType::kPlasticWork >= 0) {
         const double work = mass * set.history[LawType::kPlasticWork][p];
         sum.elastic -= law.heat_fraction() * work;

@@ -19,6 +19,7 @@
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/rigid_rules.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "mpm/simulation/transport_work.hpp"
 #include "particle_start.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -187,7 +188,8 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
                  services,
                  warnings,
                  notes,
-                 [this]() -> const EnergyReport& { return find_totals().energy; }};
+                 [this]() -> const EnergyReport& { return find_totals().energy; },
+                 interrupt};
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
   for (Module* module : modules.list()) {
@@ -221,6 +223,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                     options.threads, kMostThreads, omp_get_num_procs()));
   }
   s.asked_to_stop = std::move(options.stop);
+  s.interrupt = std::move(options.interrupt);
   s.settling = std::move(options.settling);
   s.ranks = std::move(options.ranks);
   s.definition = std::move(given);
@@ -230,7 +233,12 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (filters && transfer.order == 1) transfer = {TransferKind::flip, 0.0, 1};  // the first order is PIC
   const SimulationDefinition& definition = s.definition;
   std::size_t count = 0;
-  for (const DeformableBody& body : definition.bodies) count += whole_of(body);
+  std::vector<std::string> materials;
+  for (const DeformableBody& body : definition.bodies) {
+    count += whole_of(body);
+    materials.push_back(body.material);
+  }
+  if (const std::string slow = transport_warning(definition, materials); !slow.empty()) s.warnings.push_back(slow);
   s.threads = options.threads > 0 ? options.threads : useful_threads(count);
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   project(s.definition);
@@ -247,12 +255,16 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
   if (geostatic) add_geostatic_stress(s.definition, s.ranks.get());
+  StopCheck check_stop(s.ranks ? nullptr : s.interrupt, "the run was put together");  // ranks stop together only
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
   for (DeformableBody& body : s.definition.bodies) {
+    check_stop();
     const MaterialDefinition& material = find_material(definition, body);
     s.laws.push_back(make_law(material));
-    s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, next_id, s.ranks.get(), s.warnings));
+    s.sets.push_back(
+        make_set(definition, body, material, s.laws.back(), layout, next_id, s.ranks.get(), s.warnings, check_stop));
+    if (!body.filling.empty()) s.notes.push_back(fmt::format("body '{}': {}", body.name, body.filling));
     ParticleSet& set = s.sets.back();
     const int number = static_cast<int>(s.sets.size()) - 1;
     set.field = s.field_map.field(number, 0);
@@ -275,7 +287,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
       s.warnings.push_back(warning);
     }
   }
+  check_stop();
   s.add_modules(options.modules);
+  check_stop();
 
   const double lightest = least_mass(s.sets, s.ranks.get());
   for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;

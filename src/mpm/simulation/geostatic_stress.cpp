@@ -20,9 +20,11 @@ constexpr double kGap = 1.5;  ///< particle spacings from centre to centre that 
 
 /// A particle in its column.
 struct Part {
+  int family;            ///< of columns: those of one lattice
   std::int64_t column;   ///< which column of the lattice
   double depth;          ///< along gravity [m]
   double weight;         ///< [N]
+  double area;           ///< of the column [m^2]
   std::uint32_t number;  ///< in the list that it came in
 };
 
@@ -41,19 +43,64 @@ int axis_of(const Vec3& gravity) {
   return axis;
 }
 
+/// The lattice of a body's particles, and the number of those on which bodies before it have theirs: bodies whose
+/// columns are the same across gravity are of one family.
+class ColumnFamilies {
+ public:
+  ColumnFamilies(const SimulationDefinition& definition, int up) : up_(up) {
+    grid_.origin = definition.grid.min;
+    grid_.spacing = definition.grid.cell / definition.method.particles_per_direction;
+    // Rings: weight and area are those of their section, a column is as heavy at any radius.
+    flat_ = dimensions(definition.geometry) == 2;
+    across_ = planar(definition.geometry) ? definition.thickness : 1.0;
+  }
+  /// Of a body, with the size across the plane along y.
+  ParticleLattice lattice_of(const DeformableBody& body) const {
+    ParticleLattice lattice = body.lattice.value_or(grid_);
+    if (flat_) lattice.spacing.y() = across_;
+    return lattice;
+  }
+  int family_of(const ParticleLattice& lattice) {
+    const auto same = [&](const ParticleLattice& other) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!is_across(axis)) continue;
+        const double slack = 1e-6 * lattice.spacing[axis];
+        if (std::abs(other.origin[axis] - lattice.origin[axis]) > slack ||
+            std::abs(other.spacing[axis] - lattice.spacing[axis]) > 1e-3 * slack)
+          return false;
+      }
+      return true;
+    };
+    const auto found = std::find_if(families_.begin(), families_.end(), same);
+    if (found != families_.end()) return static_cast<int>(found - families_.begin());
+    families_.push_back(lattice);
+    return static_cast<int>(families_.size()) - 1;
+  }
+  bool is_across(int axis) const { return axis != up_ && !(flat_ && axis == 1); }
+
+ private:
+  int up_;
+  ParticleLattice grid_;
+  bool flat_ = false;
+  double across_ = 1.0;
+  std::vector<ParticleLattice> families_;
+};
+
 /// Of each part, by number: half of its own weight and that of all above it, over the column's area [Pa]. Parts of a
 /// column that are farther from each other than `gap` [m] carry nothing of each other.
-std::vector<double> vertical_stresses(std::vector<Part> parts, double gap, double area) {
+std::vector<double> vertical_stresses(std::vector<Part> parts, double gap) {
   std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    if (a.family != b.family) return a.family < b.family;
     return a.column != b.column ? a.column < b.column : a.depth < b.depth;
   });
   std::vector<double> stresses(parts.size());
   double above = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
-    const bool on_other = i > 0 && parts[i - 1].column == part.column && part.depth - parts[i - 1].depth < gap;
+    const bool on_other = i > 0 && parts[i - 1].family == part.family && parts[i - 1].column == part.column &&
+                          part.depth - parts[i - 1].depth < gap;
     if (!on_other) above = 0.0;
-    stresses[part.number] = -(above + 0.5 * part.weight) / area;
+    stresses[part.number] = -(above + 0.5 * part.weight) / part.area;
     above += part.weight;
   }
   return stresses;
@@ -67,7 +114,7 @@ int rank_of(std::int64_t column, int size) {
 }
 
 /// The same over ranks, which have parts of columns: each column comes to one of them, and the stresses go back.
-std::vector<double> vertical_stresses(Communicator& ranks, const std::vector<Part>& own, double gap, double area) {
+std::vector<double> vertical_stresses(Communicator& ranks, const std::vector<Part>& own, double gap) {
   std::vector<std::vector<Part>> parts(static_cast<std::size_t>(ranks.size()));
   for (const Part& part : own) parts[rank_of(part.column, ranks.size())].push_back(part);
   parts = exchange(ranks, std::move(parts));
@@ -81,7 +128,7 @@ std::vector<double> vertical_stresses(Communicator& ranks, const std::vector<Par
     }
     of_rank = {};
   }
-  const std::vector<double> found = vertical_stresses(std::move(columns), gap, area);
+  const std::vector<double> found = vertical_stresses(std::move(columns), gap);
   std::vector<std::vector<double>> back;
   auto next = found.begin();
   for (const std::size_t count : counts) {
@@ -136,28 +183,28 @@ void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks)
   }
   const int up = axis_of(definition.gravity);
   const double g = definition.gravity.norm(), down = definition.gravity[up] > 0.0 ? 1.0 : -1.0;
-  const bool plane = planar(definition.geometry), flat = dimensions(definition.geometry) == 2;
-  Vec3 spacing = definition.grid.cell / definition.method.particles_per_direction;
-  // Rings: weight and area are those of their section, a column is as heavy at any radius.
-  if (flat) spacing.y() = plane ? definition.thickness : 1.0;
-  const double area = spacing.prod() / spacing[up];
-
+  const bool plane = planar(definition.geometry);
+  ColumnFamilies families(definition, up);
+  double gap = 0.0;
   std::vector<Part> parts;
   for (const DeformableBody& body : definition.bodies) {
     if (!body.geostatic) continue;
+    const ParticleLattice lattice = families.lattice_of(body);
+    const int family = families.family_of(lattice);
+    const double area = lattice.spacing.prod() / lattice.spacing[up];
     const double weight = find_material(definition, body).density * body.particle_volume * g;
+    gap = std::max(gap, kGap * lattice.spacing[up]);
     for (const Vec3& place : body.positions) {
-      const Vec3 cells = (place - definition.grid.min).cwiseQuotient(spacing);
+      const Vec3 cells = (place - lattice.origin).cwiseQuotient(lattice.spacing);
       std::int64_t column = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        if (axis != up && !(flat && axis == 1))
-          column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
+        if (families.is_across(axis)) column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
       }
-      parts.push_back({column, down * place[up], weight, static_cast<std::uint32_t>(parts.size())});
+      parts.push_back({family, column, down * place[up], weight, area, static_cast<std::uint32_t>(parts.size())});
     }
   }
-  std::vector<double> own = ranks == nullptr ? vertical_stresses(std::move(parts), kGap * spacing[up], area)
-                                             : vertical_stresses(*ranks, parts, kGap * spacing[up], area);
+  std::vector<double> own =
+      ranks == nullptr ? vertical_stresses(std::move(parts), gap) : vertical_stresses(*ranks, parts, gap);
   std::vector<std::vector<double>> vertical(definition.bodies.size());
   auto next = own.begin();
   for (std::size_t b = 0; b < definition.bodies.size(); ++b) {

@@ -98,7 +98,8 @@ void store_everywhere(const InitialState& state, GeometryKind geometry, Particle
 }  // namespace
 
 void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material,
-                     GeometryKind geometry, Communicator* ranks, std::vector<std::string>& warnings) {
+                     GeometryKind geometry, Communicator* ranks, std::vector<std::string>& warnings,
+                     StopCheck& check_stop) {
   const std::size_t n = body.positions.size();
   const InitialStates states(material, geometry);
   const bool asked = !body.stresses.empty() || !body.temperatures.empty();
@@ -110,6 +111,7 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
     check_count(body, body.stresses.size(), "stresses");
     check_count(body, body.temperatures.size(), "temperatures");
     for (std::size_t p = 0; p < n; ++p) {
+      check_stop();
       if (asked) {
         InitialRequest request;
         if (!body.stresses.empty()) request.cauchy = body.stresses[p];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mpm/material/initial_state.hpp"
+#include "mpm/math/stopped.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/simulation/definition.hpp"
@@ -15,7 +16,8 @@ namespace mpm {
 /// `warnings`. `ranks`: null for a process that is alone. Collective. @throws DefinitionError naming the body and the
 /// particle's place.
 void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material,
-                     GeometryKind geometry, Communicator* ranks, std::vector<std::string>& warnings);
+                     GeometryKind geometry, Communicator* ranks, std::vector<std::string>& warnings,
+                     StopCheck& check_stop);
 
 /// Gives the bodies that start geostatic the stress of the weight above them: vertical from the columns of particles
 /// over each particle down to its centre, whatever geostatic bodies they belong to, horizontal by k0. A gap in a column

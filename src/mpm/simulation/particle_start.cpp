@@ -67,7 +67,8 @@ void make_rings(const SimulationDefinition& definition, double per_area, const G
 }
 
 ParticleSet place_particles(const SimulationDefinition& definition, const DeformableBody& body,
-                            const MaterialDefinition& material, const Law& law, const GridLayout& layout, bool shares) {
+                            const MaterialDefinition& material, const Law& law, const GridLayout& layout, bool shares,
+                            StopCheck& check_stop) {
   const std::size_t n = body.positions.size();
   const Size size(n, shares);
   const std::string start = fmt::format("body '{}': ", body.name);
@@ -85,8 +86,9 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   set.name = body.name;
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
-    set.half[k] = 0.5 / definition.method.particles_per_direction;
     const int face = 2 * layout.axis(k);
+    set.half[k] = 0.5 / definition.method.particles_per_direction;
+    if (body.lattice) set.half[k] = 0.5 * body.lattice->spacing[layout.axis(k)] / layout.cell(k);
     set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
     set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
   }
@@ -96,6 +98,7 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   for (PaddedArray<double>& x : set.x) size.give(x);
   set.v = size.zeros(dim, set.precision);
   for (std::size_t p = 0; p < n; ++p) {
+    check_stop();
     for (int k = 0; k < dim; ++k) {
       const int axis = layout.axis(k);
       set.x[k][p] = body.positions[p][axis];
@@ -163,11 +166,11 @@ void leave_own(SimulationDefinition& definition, const Communicator& ranks, cons
 
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout, std::uint32_t first,
-                     Communicator* ranks, std::vector<std::string>& warnings) {
+                     Communicator* ranks, std::vector<std::string>& warnings, StopCheck& check_stop) {
   ParticleSet set;
-  agree<DefinitionError>(ranks,
-                         [&] { set = place_particles(definition, body, material, law, layout, ranks != nullptr); });
-  start_particles(set, body, material, definition.geometry, ranks, warnings);
+  agree<DefinitionError>(
+      ranks, [&] { set = place_particles(definition, body, material, law, layout, ranks != nullptr, check_stop); });
+  start_particles(set, body, material, definition.geometry, ranks, warnings, check_stop);
   set.first_id = first;
   for (std::size_t p = 0; p < set.id.size(); ++p) set.id[p] = first + number_of(body, p);
   return set;

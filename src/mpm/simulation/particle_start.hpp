@@ -8,6 +8,7 @@
 
 #include "mpm/grid/grid_layout.hpp"
 #include "mpm/material/law.hpp"
+#include "mpm/math/stopped.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/simulation/definition.hpp"
@@ -25,7 +26,7 @@ void leave_own(SimulationDefinition& definition, const Communicator& ranks, cons
 /// @throws DefinitionError
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout, std::uint32_t first,
-                     Communicator* ranks, std::vector<std::string>& warnings);
+                     Communicator* ranks, std::vector<std::string>& warnings, StopCheck& check_stop);
 
 /// Of a body's particles on all ranks [kg]. Collective.
 double total_mass(const ParticleSet& set, const DeformableBody& body, Communicator* ranks);

@@ -71,6 +71,7 @@ struct Simulation::State {
   Isa isa = Isa::plain;
   std::vector<std::string> warnings, notes;
   std::function<bool()> asked_to_stop;  ///< may be empty
+  std::function<bool()> interrupt;      ///< as in SimulationOptions
   std::shared_ptr<Communicator> ranks;
   std::unique_ptr<OverRanks> over;  ///< over several ranks, else null
   std::function<void(const Settling&)> settling;

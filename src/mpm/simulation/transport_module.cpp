@@ -126,8 +126,17 @@ void add_transport(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   const TransportDefinition& asked = definition.transport;
   if (asked.quantities.empty()) return;
-  TransportParts shared{parts.fields, parts.sets, definition.geometry, definition.method.shape, parts.threads,
-                        {},           {},         definition.gravity,  parts.choice != nullptr, parts.ranks};
+  TransportParts shared{parts.fields,
+                        parts.sets,
+                        definition.geometry,
+                        definition.method.shape,
+                        parts.threads,
+                        {},
+                        {},
+                        definition.gravity,
+                        parts.choice != nullptr,
+                        parts.ranks,
+                        parts.interrupt};
   std::vector<double> speeds;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
     const MaterialDefinition& material = find_material(parts.definition, parts.definition.bodies[s]);

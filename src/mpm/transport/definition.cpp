@@ -1,8 +1,42 @@
 #include "mpm/transport/definition.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace mpm {
+namespace {
+
+/// A bound on the largest principal value.
+double largest(const Symmetric3<double>& s) {
+  return std::max({s.xx, s.yy, s.zz}) + std::abs(s.yz) + std::abs(s.xz) + std::abs(s.xy);
+}
+
+}  // namespace
+
+double least_capacity(const TransportMaterial& material, Transported quantity, double density) {
+  return material.capacity.least() * (quantity == Transported::temperature ? density : 1.0);
+}
+
+double largest_diffusivity(const TransportMaterial& material, Transported quantity, double density) {
+  const double turn = material.anisotropy ? largest(*material.anisotropy) : 1.0;
+  return material.conductivity.most() * turn / least_capacity(material, quantity, density);
+}
+
+double stable_step(double cell, double diffusivity) {
+  return diffusivity > 0.0 ? cell * cell / (4.0 * diffusivity) : std::numeric_limits<double>::infinity();
+}
+
+double surface_conductance(const FluxDefinition& flux, double most) {
+  if (flux.kind == FluxDefinition::Kind::convection) return flux.coefficient;
+  if (flux.kind != FluxDefinition::Kind::radiation) return 0.0;
+  const double hottest = flux.value.is_constant() ? std::max(most, flux.value(0.0)) : most;
+  return 4.0 * flux.coefficient * kStefanBoltzmann * std::pow(hottest, 3);
+}
+
+double longest_update(double cell, double least_capacity, double conductance) {
+  return conductance > 0.0 ? least_capacity * cell / (2.0 * conductance) : std::numeric_limits<double>::infinity();
+}
 
 double Property::between(double quantity) const {
   if (!(quantity > points_.front()[0])) return points_.front()[1];

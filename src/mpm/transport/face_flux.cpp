@@ -93,13 +93,7 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
 
 double FaceFlux::conductance(double most) const {
   double largest = 0.0;
-  for (const FluxTerm& term : terms_) {
-    const FluxDefinition& of = term.definition;
-    if (of.kind == FluxDefinition::Kind::convection) largest = std::max(largest, of.coefficient);
-    if (of.kind != FluxDefinition::Kind::radiation) continue;
-    const double hottest = of.value.is_constant() ? std::max(most, of.value(0.0)) : most;
-    largest = std::max(largest, 4.0 * of.coefficient * kStefanBoltzmann * std::pow(hottest, 3));
-  }
+  for (const FluxTerm& term : terms_) largest = std::max(largest, surface_conductance(term.definition, most));
   return largest;
 }
 

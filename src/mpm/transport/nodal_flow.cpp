@@ -295,7 +295,7 @@ void TransportedField::conduct(int field, double start, double dt) {
       parts_.fields[field]->blocks.size(), parts_.threads, dt, stages_for(dt / stable_step_), nodes.value,
       nodes.capacity, kLight * least_capacity_,
       [&](const NodalField& value, NodalField& to) { flow(field, value, to); },
-      [&](NodalField& value, double part) { hold(field, value, start + part * dt); }, came);
+      [&](NodalField& value, double part) { hold(field, value, start + part * dt); }, came, [this] { ask_to_stop(); });
   end_conduction(field, start, dt, came);
 }
 
@@ -319,7 +319,7 @@ void TransportedField::conduct_in_all(double start, double dt) {
       [&](NodalField& value, double part) {
         for (int f = 0; f < fields; ++f) hold(f, value, start + part * dt, joined.first[f]);
       },
-      came);
+      came, [this] { ask_to_stop(); });
   for (int f = 0; f < fields; ++f) end_conduction(f, start, dt, came, joined.first[f]);
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mpm/step/coulomb.hpp"
@@ -13,6 +15,9 @@ namespace {
 
 constexpr std::size_t kTouches = 1024;  ///< for which there is room at the start; more make their own
 constexpr std::size_t kSharesOfATouch = 8;
+
+/// What is exchanged in a time of so many time constants, over what the difference at its start would exchange.
+double part_exchanged(double constants) { return constants > 1e-12 ? -std::expm1(-constants) / constants : 1.0; }
 
 }  // namespace
 
@@ -29,6 +34,12 @@ SurfaceHeat::SurfaceHeat(const Fields& fields, const std::vector<RigidBody>& bod
   touches_.reserve(kTouches);
   shares_.reserve(kTouches * kSharesOfATouch);
   meetings_.reserve(kTouches);
+  tool_loads_.assign(tools_.size(), 0.0);
+  const auto conducts = [](const ToolHeat& tool) { return tool.definition.conductance > 0.0; };
+  if (std::any_of(tools_.begin(), tools_.end(), conducts) ||
+      std::any_of(pairs_.begin(), pairs_.end(), [](double conductance) { return conductance > 0.0; })) {
+    loads_.assign(fields.size(), NodalField(1, fields.front()->layout.nodes_per_block()));
+  }
   for (ToolHeat& tool : tools_) {
     if (tool.definition.capacity > 0.0) tool.temperature = tool.definition.temperature(0.0);
   }
@@ -88,27 +99,82 @@ void SurfaceHeat::meet(const Grid& one, const Grid& other, std::uint64_t node, d
   meetings_.push_back({field_of(one), field_of(other), node, area, friction, dt});
 }
 
+double SurfaceHeat::whole_of(const Touch& touch) const {
+  double whole = 0.0;
+  for (int i = touch.first; i < touch.first + touch.count; ++i) {
+    if (find(touch.field, shares_[i].node).block >= 0) whole += shares_[i].share;
+  }
+  return whole;
+}
+
+void SurfaceHeat::load() {
+  for (std::size_t f = 0; f < loads_.size(); ++f) loads_[f].resize(fields_[f]->blocks.size());
+  std::fill(tool_loads_.begin(), tool_loads_.end(), 0.0);
+  const auto each = [&](auto&& visit) {
+    for (const Touch& touch : touches_) {
+      if (touch.tool < 0) continue;
+      const double whole = whole_of(touch);
+      if (!(whole > 0.0)) continue;
+      const ToolHeat& tool = tools_[touch.tool];
+      const double all = tool.definition.conductance * touch.area * touch.dt / whole;
+      for (int i = touch.first; i < touch.first + touch.count; ++i) {
+        const NodeRef ref = find(touch.field, shares_[i].node);
+        if (ref.block >= 0) visit(touch.field, ref, all * shares_[i].share, touch.tool);
+      }
+    }
+    for (const Meeting& meeting : meetings_) {
+      const NodeRef one = find(meeting.field, meeting.node), other = find(meeting.other_field, meeting.node);
+      const double conductance = pairs_[meeting.field * fields_.size() + meeting.other_field];
+      if (one.block < 0 || other.block < 0 || !(conductance > 0.0)) continue;
+      const double all = conductance * meeting.area * meeting.dt;
+      visit(meeting.field, one, all, -1);
+      visit(meeting.other_field, other, all, -1);
+    }
+  };
+  each([&](int field, const NodeRef& ref, double, int) { loads_[field].at(ref.block, 0, ref.node) = 0.0; });
+  each([&](int field, const NodeRef& ref, double own, int tool) {
+    loads_[field].at(ref.block, 0, ref.node) += own;
+    if (tool >= 0) tool_loads_[tool] += own;
+  });
+}
+
+double SurfaceHeat::constants(const std::vector<NodalQuantity>& nodes, int field, const NodeRef& ref) const {
+  const double capacity = nodes[field].capacity.at(ref.block, 0, ref.node);
+  return capacity > 0.0 ? loads_[field].at(ref.block, 0, ref.node) / capacity : 0.0;
+}
+
 void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, double start, double dt) {
   NodalQuantity& of = nodes[touch.field];
-  double there = 0.0, whole = 0.0;
-  for (int i = touch.first; i < touch.first + touch.count; ++i) {
-    const NodeRef ref = find(touch.field, shares_[i].node);
-    if (ref.block < 0) continue;
-    whole += shares_[i].share;
-    there += shares_[i].share * of.value.at(ref.block, 0, ref.node);
-  }
+  const double whole = whole_of(touch);
   const bool keeps = ranks_ == nullptr || touch.by_tool;  // what all ranks keep and give alike
   if (!(whole > 0.0)) {
     if (keeps) kept_ += touch.friction;
     return;
   }
-  double conducted = 0.0, warms = touch.friction + (keeps ? std::exchange(kept_, 0.0) : 0.0);
+  double warms = touch.friction + (keeps ? std::exchange(kept_, 0.0) : 0.0);
+  const double friction = warms;
+  double full = 0.0, temperature = 0.0, tool_constants = 0.0;
+  if (touch.tool >= 0) {
+    const ToolHeat& tool = tools_[touch.tool];
+    warms *= tool.definition.friction_part;
+    full = tool.definition.conductance * touch.area * touch.dt / whole;
+    temperature = tool_temperature(touch.tool, start);
+    if (tool.definition.capacity > 0.0) tool_constants = tool_loads_[touch.tool] / tool.definition.capacity;
+  }
+  double conducted = 0.0;
+  for (int i = touch.first; i < touch.first + touch.count; ++i) {
+    const NodeRef ref = find(touch.field, shares_[i].node);
+    if (ref.block < 0) continue;
+    double heat = 0.0;
+    if (touch.tool >= 0) {
+      heat = full * shares_[i].share * part_exchanged(constants(nodes, touch.field, ref) + tool_constants) *
+             (temperature - of.value.at(ref.block, 0, ref.node));
+      conducted += heat;
+    }
+    of.source.at(ref.block, 0, ref.node) += (heat + shares_[i].share / whole * warms) / dt;
+  }
   if (touch.tool >= 0) {
     ToolHeat& tool = tools_[touch.tool];
-    const double friction = warms;
-    warms *= tool.definition.friction_part;
-    conducted =
-        tool.definition.conductance * touch.area * (tool_temperature(touch.tool, start) - there / whole) * touch.dt;
     tool.to_material += conducted;
     tool.from_friction += friction - warms;
     if (tool.definition.capacity > 0.0) tool.temperature += (friction - warms - conducted) / tool.definition.capacity;
@@ -116,10 +182,6 @@ void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, do
   if (counts(touch)) {
     rubbed_ += warms;
     given_ += conducted;
-  }
-  for (int i = touch.first; i < touch.first + touch.count; ++i) {
-    const NodeRef ref = find(touch.field, shares_[i].node);
-    if (ref.block >= 0) of.source.at(ref.block, 0, ref.node) += shares_[i].share / whole * (conducted + warms) / dt;
   }
 }
 
@@ -133,7 +195,11 @@ void SurfaceHeat::give(const Meeting& meeting, std::vector<NodalQuantity>& nodes
   NodalQuantity &a = nodes[meeting.field], &b = nodes[meeting.other_field];
   const double difference = b.value.at(other.block, 0, other.node) - a.value.at(one.block, 0, one.node);
   const double conductance = pairs_[meeting.field * fields_.size() + meeting.other_field];
-  const double heat = conductance * meeting.area * difference * meeting.dt / dt;
+  double heat = 0.0;
+  if (conductance > 0.0) {
+    const double both = constants(nodes, meeting.field, one) + constants(nodes, meeting.other_field, other);
+    heat = conductance * meeting.area * difference * part_exchanged(both) * meeting.dt / dt;
+  }
   const double sum = effusivities_[meeting.field] + effusivities_[meeting.other_field];
   const double part = sum > 0.0 ? effusivities_[meeting.field] / sum : 0.5;
   const double friction = (meeting.friction + (keeps ? std::exchange(kept_, 0.0) : 0.0)) / dt;
@@ -144,6 +210,7 @@ void SurfaceHeat::give(const Meeting& meeting, std::vector<NodalQuantity>& nodes
 
 void SurfaceHeat::give(std::vector<NodalQuantity>& nodes, double start, double dt) {
   rubbed_ = given_ = 0.0;
+  if (!loads_.empty()) load();
   for (const Touch& touch : touches_) give(touch, nodes, start, dt);
   for (const Meeting& meeting : meetings_) give(meeting, nodes, dt);
   friction_.add(rubbed_);

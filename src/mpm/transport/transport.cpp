@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -12,7 +13,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kWait = 1.0;  ///< of the step that one stage can take, which an update may wait for
+constexpr double kWait = 1.0;        ///< of the step that one stage can take, which an update may wait for
+constexpr double kRoundOff = 1e-13;  ///< of a sum over all particles and updates, relative to what is summed
 
 }  // namespace
 
@@ -35,38 +37,82 @@ void Transport::prepare_expansion() {
     expands_ = true;
     parts_.sets[s].free_strain = static_cast<int>(parts_.sets[s].bring("free_strain", "1"));
     parts_.sets[s].bring("free_strain_before", "1");
+    parts_.sets[s].bring("free_strain_grown", "1");
   }
   if (expands_) expands_for_ = 1e-9 * static_cast<double>(sync_);  // where the start is not free of strain
 }
 
+template <class Term>
+double Transport::sum_over(const ParticleSet& set, Term&& term) {
+  const int groups = (set.awake() + kGainGroup - 1) / kGainGroup;
+  sums_.assign(groups, 0.0);
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+  for (int g = 0; g < groups; ++g) {
+    const int end = std::min(set.awake(), (g + 1) * kGainGroup);
+    for (int p = g * kGainGroup; p < end; ++p) sums_[g] += term(p);
+  }
+  return std::accumulate(sums_.begin(), sums_.end(), 0.0);
+}
+
+// The law takes the new strain at the next look at the stress, which is in this step or, with USF, in the next; the
+// work is that of the mean of the stress before and after, so that it is what the elastic energy gains, to the second
+// order.
 void Transport::expand(double part) {
+  finish_expansion();
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     ParticleSet& set = parts_.sets[s];
     if (set.free_strain < 0) continue;
     double* strain = set.brought[set.free_strain].values.data();
-    const int groups = (set.awake() + kGainGroup - 1) / kGainGroup;
-    sums_.assign(groups, 0.0);
-#pragma omp parallel for schedule(static) num_threads(parts_.threads)
-    for (int g = 0; g < groups; ++g) {
-      const int end = std::min(set.awake(), (g + 1) * kGainGroup);
-      for (int p = g * kGainGroup; p < end; ++p) {
-        double stretch = 1.0;
-        for (const auto& field : fields_) {
-          const double by_one = field->material(static_cast<int>(s)).expansion;
-          stretch *= 1.0 + by_one * (field->values(static_cast<int>(s))[p] - field->definition().reference);
-        }
-        const double grown = part * (stretch - 1.0 - strain[p]);
-        const double pressure =
-            with_geometry(parts_.geometry, [&](auto kind) { return trace(kind.load_symmetric(set.tau, p)); });
-        sums_[g] -= set.mass_of(p) * pressure * std::log1p(grown / (1.0 + strain[p]));
-        strain[p] += grown;
+    double* grows = set.brought[set.free_strain + 2].values.data();
+    expansion_begun_ += sum_over(set, [&](int p) {
+      double stretch = 1.0;
+      for (const auto& field : fields_) {
+        const double by_one = field->material(static_cast<int>(s)).expansion;
+        stretch *= 1.0 + by_one * (field->values(static_cast<int>(s))[p] - field->definition().reference);
       }
-    }
-    expansion_work_ = std::accumulate(sums_.begin(), sums_.end(), expansion_work_);
+      const double grown = part * (stretch - 1.0 - strain[p]);
+      const double by = std::log1p(grown / (1.0 + strain[p]));
+      strain[p] += grown;
+      grows[p] += by;
+      return -0.5 * set.mass_of(p) * pull(set, p) * by;
+    });
   }
+  begun_ = true;
 }
 
+void Transport::finish_expansion() {
+  if (!begun_) return;
+  std::atomic<bool> left{false};
+  for (ParticleSet& set : parts_.sets) {
+    if (set.free_strain < 0) continue;
+    const double* strain = set.brought[set.free_strain].values.data();
+    const double* taken = set.brought[set.free_strain + 1].values.data();
+    double* grows = set.brought[set.free_strain + 2].values.data();
+    expansion_work_ += sum_over(set, [&](int p) {
+      const double by = grows[p];
+      if (by == 0.0) return 0.0;
+      if (taken[p] != strain[p]) {
+        left.store(true, std::memory_order_relaxed);
+        return 0.0;
+      }
+      grows[p] = 0.0;
+      return -0.5 * set.mass_of(p) * pull(set, p) * by;
+    });
+  }
+  begun_ = left;
+  if (begun_) return;
+  expansion_work_ += expansion_begun_;
+  expansion_begun_ = 0.0;
+}
+
+double Transport::pull(const ParticleSet& set, int p) const {
+  return with_geometry(parts_.geometry, [&](auto kind) { return trace(kind.load_symmetric(set.tau, p)); });
+}
+
+void Transport::step_begun(StepContext&) { finish_expansion(); }
+
 void Transport::forces_gathered(StepContext& context) {
+  finish_expansion();
   if (!water_) return;
   for (const auto& field : fields_) {
     if (field->quantity() == Transported::pore_pressure) field->collect();
@@ -119,7 +165,11 @@ double Transport::budget_error(const TransportedField& field) const {
   }
   if (parts_.ranks != nullptr) parts_.ranks->sum(sums, 3);
   const double error = std::abs(gained - given);
-  return exchanged > 0.0 ? error / exchanged : error;
+  if (error <= kRoundOff * exchanged) return exchanged > 0.0 ? error / exchanged : 0.0;
+  double content = field.content();
+  if (parts_.ranks != nullptr) parts_.ranks->sum(&content, 1);
+  if (error <= kRoundOff * content) return error / content;
+  return error / std::max(exchanged, kRoundOff * content);
 }
 
 void Transport::numbers(std::vector<NamedNumber>& list) const {
@@ -171,6 +221,8 @@ void Transport::hashed(std::vector<double>& numbers) const {
 void Transport::serialise(StateArchive& archive) {
   archive.value("sync_end", sync_end_);
   archive.sum("expansion_work", expansion_work_);
+  archive.sum("expansion_begun", expansion_begun_);
+  if (archive.reading()) begun_ = expands_;  // it looks, and finds what there is
   archive.value("expands_for", expands_for_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const StateArchive::Group group(archive, kQuantityNames[static_cast<int>(fields_[i]->quantity())]);

@@ -13,14 +13,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kBeyond = 0.1;     ///< of the range of given values, by which FLIP's scatter may leave it
-constexpr double kLargest = 1e30;   ///< of any quantity
-constexpr double kOfPoints = 0.25;  ///< of a stable step: longer updates grow at nodes that a point barely reaches
-
-/// A bound on the largest principal value.
-double largest(const Symmetric3<double>& s) {
-  return std::max({s.xx, s.yy, s.zz}) + std::abs(s.yz) + std::abs(s.xz) + std::abs(s.xy);
-}
+constexpr double kBeyond = 0.1;    ///< of the range of given values, by which FLIP's scatter may leave it
+constexpr double kLargest = 1e30;  ///< of any quantity
 
 }  // namespace
 
@@ -101,9 +95,9 @@ void TransportedField::fit_scratch() {
 void TransportedField::add(std::unique_ptr<NodalSource> source) {
   if (vectors_ == 0) make_room();
   // A surface that takes h (T_a - T), h as at the start, is read once an update: that must not overshoot.
-  const double h = source->conductance(highest_);
   const double cell = parts_.fields.front()->layout.smallest_cell();
-  if (h > 0.0) longest_update_ = std::min(longest_update_, least_of_volume_ * cell / (2.0 * h));
+  longest_update_ =
+      std::min(longest_update_, mpm::longest_update(cell, least_of_volume_, source->conductance(highest_)));
   sources_.push_back(std::move(source));
 }
 
@@ -129,16 +123,14 @@ void TransportedField::find_limit() {
   double fastest = 0.0;  // K over C [m^2/s]
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     const TransportMaterial& own = material(static_cast<int>(s));
-    const double turn = own.anisotropy ? largest(*own.anisotropy) : 1.0;
-    const double capacity =
-        own.capacity.least() * (definition_.quantity == Transported::temperature ? parts_.densities[s] : 1.0);
-    fastest = std::max(fastest, own.conductivity.most() * turn / capacity);
+    const double capacity = mpm::least_capacity(own, definition_.quantity, parts_.densities[s]);
+    fastest = std::max(fastest, largest_diffusivity(own, definition_.quantity, parts_.densities[s]));
     least_of_volume_ = std::min(least_of_volume_, capacity);
     if (parts_.sets[s].size() == 0) continue;  // they are on other ranks
     least_capacity_ = std::min(least_capacity_, capacity * parts_.sets[s].least_mass() / parts_.densities[s]);
   }
   const double cell = parts_.fields.front()->layout.smallest_cell();
-  stable_step_ = fastest > 0.0 ? cell * cell / (4.0 * fastest) : std::numeric_limits<double>::infinity();
+  stable_step_ = mpm::stable_step(cell, fastest);
   longest_update_ = std::numeric_limits<double>::infinity();
   if (parts_.shape == ShapeKind::dirac) longest_update_ = kOfPoints * stable_step_;
 }
@@ -176,7 +168,19 @@ void TransportedField::collect() {
   }
 }
 
+// Over several ranks all of them stop, or none; they are asked less often, since it takes a message.
+void TransportedField::ask_to_stop() {
+  constexpr std::uint32_t kRanksEvery = 64;
+  if (!parts_.interrupt) return;
+  if (parts_.ranks != nullptr && ++asked_ % kRanksEvery != 0) return;
+  const bool own = parts_.interrupt();
+  if (parts_.ranks == nullptr ? !own : !parts_.ranks->any(own)) return;
+  throw StoppedError(fmt::format("stopped within a step, while the {} moved in stages",
+                                 kQuantityNames[static_cast<int>(definition_.quantity)]));
+}
+
 void TransportedField::update(double start, double dt, bool reported) {
+  ask_to_stop();
   if (flows_ || pending()) {
     fit_scratch();
     find_nodal_values();
@@ -222,6 +226,21 @@ void TransportedField::check_range() const {
           absolute && value[p] < 0.0 ? "below the absolute zero" : "out of all range"));
     }
   }
+}
+
+double TransportedField::content() const {
+  double sum = 0.0;
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const ParticleSet& set = parts_.sets[s];
+    for (int first = 0; first < set.size(); first += kGainGroup) {
+      const int last = std::min(set.size(), first + kGainGroup);
+      double capacity[kGainGroup];
+      find_capacities(static_cast<int>(s), first, last, capacity);
+      for (int p = first; p < last; ++p)
+        sum += set.mass_of(p) * capacity[p - first] * std::abs(carried(static_cast<int>(s))[p]);
+    }
+  }
+  return sum;
 }
 
 bool TransportedField::pending() const {

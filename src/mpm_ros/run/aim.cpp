@@ -59,7 +59,7 @@ class Timing {
     if (const auto kept = costs_.find(key, now))
       return Forecast{kept->cost, kept->particles, kept->threads, scene.definition.time.end, false, false};
     try {
-      const auto timed = mpm::pace::time_copy(mpm::build(scene), threads_, isa_, budget, stop_);
+      const auto timed = mpm::pace::time_copy(mpm::build(scene, nullptr, stop_), threads_, isa_, budget, stop_);
       if (timed) costs_.keep(key, {timed->cost, timed->threads, timed->particles, now});
       return timed;
     } catch (const mpm::StoppedError&) {

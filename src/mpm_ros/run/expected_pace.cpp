@@ -52,7 +52,7 @@ std::optional<double> faster(const Forecast& before, const mpm::SimulationDefini
 
 mpm::pace::TimedFactors compare(const mpm::Scene& scene, const Forecast& before, int threads, mpm::Isa isa) {
   mpm::pace::TimedFactors timed;
-  const mpm::SimulationDefinition built = mpm::build(scene);
+  const mpm::SimulationDefinition built = mpm::build(scene, nullptr, stop_overdue);
   try {
     if (threads > before.threads) timed.threads = faster(before, built, threads, isa);
     mpm::SimulationDefinition changed = built;
@@ -85,7 +85,7 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
     pace.origin = timed_text(pace.forecast, now - kept->when);
   } else if (may_time) {
     try {
-      mpm::SimulationDefinition built = mpm::build(scene);
+      mpm::SimulationDefinition built = mpm::build(scene, nullptr, options.stop);
       if (count(built) > kMostTimed) return std::nullopt;
       const auto timed = mpm::pace::time_copy(std::move(built), options.threads, isa, kTimingBudget, options.stop);
       if (!timed) return std::nullopt;

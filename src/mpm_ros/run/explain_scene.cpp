@@ -17,7 +17,7 @@ namespace mpm_ros {
 namespace {
 
 void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostream& out) {
-  mpm::SimulationDefinition built = mpm::build(scene);
+  mpm::SimulationDefinition built = mpm::build(scene, nullptr, stop_overdue);
   out << mpm::explain(scene, built);
   if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
   mpm::pace::StepTimer timer(kTimingBudget, stop_overdue);
@@ -27,7 +27,9 @@ void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostre
                               true,
                               {},
                               [&timer] { return timer.after_step(); },
-                              settling_news([&](const std::string& line) { out << line << std::endl; })});
+                              settling_news([&](const std::string& line) { out << line << std::endl; }),
+                              {},
+                              stop_overdue});
   // What a run writes is checked as a run checks it.
   const OutputOptions output = output_options(scene);
   check_fields(output);

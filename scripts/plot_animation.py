@@ -1,6 +1,6 @@
 """Makes a film of a run. bag_report writes to standard input: a line of JSON (frames, field, unit, low, high, min,
-max), then for each snapshot its time [s] (float64), the number of particles (uint64) and x, y, z, value of each
-(float32). Each frame is drawn and forgotten before the next is read."""
+max), then for each snapshot its time [s] (float64), the number of particles (uint64) and x, y, z from min, and the
+value, of each (float32). Each frame is drawn and forgotten before the next is read."""
 import json
 import os
 import shutil
@@ -28,12 +28,13 @@ def read_exactly(stream, count):
     return data
 
 
-def snapshots_of(stream, count):
-    for _ in range(count):
+def snapshots_of(stream, head):
+    corner = np.array(head["min"])
+    for _ in range(head["frames"]):
         time = np.frombuffer(read_exactly(stream, 8), "<f8")[0]
         size = int(np.frombuffer(read_exactly(stream, 8), "<u8")[0])
         rows = np.frombuffer(read_exactly(stream, 16 * size), "<f4").reshape(size, 4)
-        yield float(time), rows[:, :3].astype(float), rows[:, 3]
+        yield float(time), corner + rows[:, :3].astype(float), rows[:, 3]
 
 
 class Film:
@@ -144,7 +145,7 @@ def animate(run, path):
         raise TableError("--animate: no snapshots; bag_report writes them to standard input")
     writer, why = writer_of(path)
     film = None
-    for time, positions, values in snapshots_of(sys.stdin.buffer, head["frames"]):
+    for time, positions, values in snapshots_of(sys.stdin.buffer, head):
         if film is None:
             film = Film(run, head, spacing(positions))
         writer.add(film.frame(time, positions, values))

@@ -24,6 +24,7 @@ FIELDS = {
     "vz": "velocity along z",
 }
 POSITION = ("x", "y", "z", "id")
+TRANSPORTED = ("temperature", "concentration", "pore_pressure")
 
 
 class Snapshot:
@@ -115,7 +116,11 @@ def fields_of(run, wanted):
     known = [name for name in Table(run.snapshots[0][1]).names() if name not in POSITION]
     if wanted and wanted not in known:
         raise TableError(f"no particle field '{wanted}' was recorded; there are: {', '.join(known)}")
-    return [wanted] if wanted else [name for name in ("speed", "ep", "mises", "p") if name in known][:2] or known[:1]
+    if wanted:
+        return [wanted]
+    # What is transported tells most, where the scene names it before all else.
+    telling = [name for name in known[:1] if name in TRANSPORTED] + ["speed", "ep", "mises", "p"]
+    return [name for name in telling if name in known][:2] or known[:1]
 
 
 def plot_particles(run, folder, fields, cracks):

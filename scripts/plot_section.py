@@ -3,6 +3,7 @@ import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
+from matplotlib.ticker import MaxNLocator
 
 from plot_style import BLUE, STEEL
 from plot_tables import reach_of
@@ -50,6 +51,37 @@ def loops(segments):
             yield np.array(polygon)
 
 
+def area(polygons):
+    """The area that polygons enclose, less that of those within one of them, and so on, as a path; None without any."""
+    outlines = [Path(polygon, closed=True) for polygon in polygons]
+    turned = []
+    for i, polygon in enumerate(polygons):
+        around = sum(other.contains_point(polygon[0]) for k, other in enumerate(outlines) if k != i)
+        x, y = polygon[:, 0], polygon[:, 1]
+        left = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) > 0
+        turned.append(Path(polygon if left == (around % 2 == 0) else polygon[::-1], closed=True))
+    return Path.make_compound_path(*turned) if turned else None
+
+
+def solids(vertices, faces):
+    """A surface as its closed parts, (vertices, faces) each. A part that is turned inside out is a hollow in the others,
+    and goes with all of them as one."""
+    owner = np.arange(len(vertices))
+    while True:  # every corner gets the least number among the corners of its faces
+        least = owner[faces].min(axis=1)
+        before = owner.copy()
+        for corner in range(3):
+            np.minimum.at(owner, faces[:, corner], least)
+        if np.array_equal(owner, before):
+            break
+    labels = owner[faces[:, 0]]
+    parts = [(vertices, faces[labels == label]) for label in np.unique(labels)]
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c))
+    hollow = any(volume[labels == label].sum() < 0 for label in np.unique(labels))
+    return [(vertices, faces)] if hollow or len(parts) > 50 else parts
+
+
 def slice_axis(run, body):
     """The horizontal axis along which the body moves least: 0 for x, 1 for y."""
     if body is None:
@@ -72,7 +104,7 @@ class Section:
         self.axis = 1 if self.flat else slice_axis(run, self.tool)
         self.shown = [1 - self.axis, 2]
         self.middle = 0.5 * (box[0] + box[1])[self.axis]
-        self.outlines = run.outlines()
+        self.parts = {body: solids(*surface) for body, surface in run.outlines().items()}
         low, high = reach_of(run, box, times, gap)
         low, high = low[self.shown], high[self.shown]
         # The arrow of the largest force is a quarter of the picture long.
@@ -97,19 +129,22 @@ class Section:
         panel.add_collection(EllipseCollection(width, width, np.zeros(len(points)), units="xy", offsets=points,
                                                offset_transform=panel.transData, facecolors=colors[near],
                                                edgecolors="#88888866", linewidths=0.25))
-        for body, (vertices, faces) in self.outlines.items():
+        for body, parts in self.parts.items():
             position, rotation = run.pose_at(body, time)
-            segments = [(a[shown], b[shown]) for a, b in cut(position + vertices @ rotation.T, faces, axis, at)]
-            paths = [Path(polygon, closed=True) for polygon in loops(segments)]
-            if paths:
-                panel.add_patch(PathPatch(Path.make_compound_path(*paths), facecolor=STEEL, linewidth=0, zorder=3))
-            panel.add_collection(LineCollection(segments, colors="black", linewidths=1.3, zorder=4))
+            for vertices, faces in parts:
+                segments = [(a[shown], b[shown]) for a, b in cut(position + vertices @ rotation.T, faces, axis, at)]
+                # Half of a line lies beneath the filled parts: none is left inside parts that overlap.
+                panel.add_collection(LineCollection(segments, colors="black", linewidths=2.6, zorder=3))
+                path = area(list(loops(segments)))
+                if path:
+                    panel.add_patch(PathPatch(path, facecolor=STEEL, linewidth=0, zorder=4))
         if self.tool:
             self._draw_force(panel, time)
         panel.set_xlim(self.low[0], self.high[0])
         panel.set_ylim(self.low[1], self.high[1])
         panel.set_aspect("equal")
         panel.grid(False)
+        panel.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))  # labels of neighbours do not meet
         panel.set_xlabel(f"{'xyz'[shown[0]]} [m]")
         panel.set_ylabel("z [m]")
 

@@ -36,7 +36,8 @@ def style():
             "lines.linewidth": 1.6,
             "figure.dpi": 150,
             "savefig.facecolor": "white",
-            "figure.constrained_layout.h_pad": 0.06,
+            "figure.constrained_layout.h_pad": 0.08,
+            "figure.constrained_layout.w_pad": 0.14,  # names beside lines and axes do not touch the edge
         }
     )
 
@@ -44,7 +45,9 @@ def style():
 def caption(figure, title, text):
     """Writes the run's name and the subject above the picture, and how the run was made below."""
     figure.suptitle(title, fontweight="bold", fontsize=13, x=0.012, ha="left", linespacing=0.5)
-    text = text.replace("  ·  ", "\u00a0\u00a0·  ")  # a line ends with a dot, and does not begin with one
+    # A line ends with a dot, and does not begin with one; short parts stay in one.
+    parts = [part.replace(" ", "\u00a0") if len(part) < 40 else part for part in text.split("  ·  ")]
+    text = "\u00a0\u00a0·  ".join(parts)
     lines = [part for line in text.splitlines() for part in textwrap.wrap(line, int(15.5 * figure.get_figwidth()))]
     figure.supxlabel("\n".join(lines), fontsize=8, color="#666666", x=0.012, ha="left")
 

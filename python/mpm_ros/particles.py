@@ -20,12 +20,14 @@ class Particles:
     stamp     [ns] of the message
     fields    names: x, y, z, id and the chosen ones
     array     (n,) of NumPy's structured type, a view of the message
-    positions (n, 3) float32 [m], a view of the message
+    frame     of x, y, z: the world's, or "<world>_local" in a scene far from the origin (doc/watching.md)
+    positions (n, 3) float32 [m] in that frame, a view of the message
     """
 
     def __init__(self, cloud, start):
         """`cloud`: decoded message (decoding.py). `start` [ns]: stamp of simulated time zero."""
         self.stamp = cloud.header.stamp
+        self.frame = cloud.header.frame_id
         self.time = simulated_time(self.stamp, start)
         if cloud.is_bigendian:
             raise MpmError("a cloud of a big-endian machine is not read")

@@ -1,13 +1,55 @@
 // rosrun mpm_ros material_driver MATERIAL [PATH]: drives one piece of material along a path of strain or stress. Wiring
 // only; see mpm/scene/material_driver.hpp.
 //
-// Exit codes: 0 done, 2 bad input, 3 the law failed.
+// Exit codes: 0 done, 1 the disk is full, 2 bad input, 3 the law failed.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 
 #include "mpm/material/path_driver.hpp"
+#include "mpm/math/files_in_use.hpp"
+#include "mpm/math/output_file.hpp"
 #include "mpm/scene/material_driver.hpp"
+
+namespace {
+
+/// Writes the table to a file, which is replaced when there is another table: on bad input it stays as it was, and a
+/// law that fails leaves the steps before. Returns the exit code. @throws std::exception as drive_material() does
+int drive_to(const std::string& csv, const mpm::MaterialDriverOptions& options) {
+  mpm::FilesInUse files;
+  files.reads("the scene", options.scene);
+  files.reads("the path", options.path_file);
+  files.writes("--csv", csv);
+  const std::string part = mpm::behind_links(csv) + ".part";
+  files.writes("--csv", part);
+  std::ofstream file;
+  std::string problem = mpm::refused_output(csv);
+  if (problem.empty()) problem = mpm::open_output(file, part);
+  if (!problem.empty()) {
+    std::cerr << "material_driver: " << csv << ": cannot be written: " << problem << "\n";
+    return 2;
+  }
+  const auto keep = [&] {
+    file.close();
+    if (file && std::rename(part.c_str(), mpm::behind_links(csv).c_str()) == 0) return 0;
+    std::remove(part.c_str());
+    std::cerr << "material_driver: " << csv << ": cannot be written; check the space on its disk\n";
+    return 1;
+  };
+  try {
+    mpm::drive_material(options, file);
+    return keep();
+  } catch (const mpm::PathFailure&) {
+    keep();
+    throw;
+  } catch (...) {
+    std::remove(part.c_str());
+    throw;
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   mpm::MaterialDriverOptions options;
@@ -41,17 +83,12 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  std::ofstream file;
-  if (!csv.empty()) {
-    file.open(csv);
-    if (!file) {
-      std::cerr << "material_driver: " << csv << ": cannot be written; check the folder and its permissions\n";
-      return 2;
-    }
-  }
   try {
-    mpm::drive_material(options, csv.empty() ? std::cout : file);
-    return 0;
+    if (csv.empty()) {
+      mpm::drive_material(options, std::cout);
+      return 0;
+    }
+    return drive_to(csv, options);
   } catch (const mpm::PathFailure& error) {
     std::cerr << "material_driver: " << error.what() << "\n";
     return 3;

@@ -25,6 +25,7 @@
 
 #include "mpm/math/input_file.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/particle_colours.hpp"
 #include "mpm_ros/message/run_namespaces.hpp"
 #include "mpm_ros/message/topics.hpp"
@@ -45,12 +46,14 @@ std::filesystem::path fitted_path() {
   return folder / "mpm_ros_watch.rviz";
 }
 
-/// Domain of the running scene; empty when it is not known.
+/// Domain of the running scene, in the frame of its particles; empty when it is not known.
 mpm::Box domain_of(const mpm_ros::RunInfoConstPtr& info) {
   if (!info) return {};
   try {
     const mpm::Scene scene = mpm::parse_scene(info->scene_text, info->scene_path);
-    return {scene.definition.grid.min, scene.definition.grid.max};
+    const mpm::GridDefinition& grid = scene.definition.grid;
+    const mpm::Vec3 origin = mpm_ros::local_frame(grid, "world").origin;
+    return {grid.min - origin, grid.max - origin};
   } catch (const mpm::Error&) {
     return {};  // the scene is of another version; the particles alone suffice
   }

@@ -6,10 +6,21 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "mpm/study/suite.hpp"
 #include "mpm/study/tool_force/run.hpp"
 #include "mpm/study/work_precision.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/report/report_plots.hpp"
+
+namespace {
+
+std::string suites_text() {
+  std::string names;
+  for (const mpm::study::Suite& suite : mpm::study::suites()) names += suite.name + ", ";
+  return "run only this problem: " + names + "or tool_force, alone; may be repeated";
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   mpm::study::StudyOptions options;
@@ -19,7 +30,7 @@ int main(int argc, char** argv) {
   auto* short_run = app.add_flag("--quick", quick, "some minutes; the default");
   app.add_flag("--full", options.full, "finer grids, every method on every problem, longer timing; an hour or more")
       ->excludes(short_run);
-  app.add_option("--suite", options.suites, "run only this problem; may be repeated");
+  app.add_option("--suite", options.suites, suites_text());
   app.add_option("--method", options.methods, "run only this method, such as cpdi/usavg/flip; may be repeated");
   app.add_option("--out", options.folder, "folder for work_precision.csv, summary.csv and the charts");
   app.add_flag("!--no-charts", charts, "tables only");

@@ -210,9 +210,9 @@ TEST(OutputsRefused, FoldersThatMayNotBeWritten) {
   };
   const std::string may_not = "Permission denied", advice = "choose another";
   expect_closed(&RunSceneOptions::bag, "/run.bag", "is not writable; " + advice);
-  expect_closed(&RunSceneOptions::csv, "", "/commands.csv: cannot be written: " + may_not);
+  expect_closed(&RunSceneOptions::csv, "", "no file can be made in the folder: " + may_not);
   expect_closed(&RunSceneOptions::csv, "/csv", may_not + "; " + advice);
-  expect_closed(&RunSceneOptions::vtk, "", "/run.pvd: cannot be written: " + may_not);
+  expect_closed(&RunSceneOptions::vtk, "", "no file can be made in the folder: " + may_not);
   expect_closed(&RunSceneOptions::vtk, "/vtk", may_not + "; " + advice);
   expect_closed(&RunSceneOptions::summary, "/run.json", "cannot be written: " + may_not + "; check the folder");
   expect_closed(&RunSceneOptions::summary, "/old.json", "cannot be written: " + may_not + "; check the folder");

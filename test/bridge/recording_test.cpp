@@ -376,7 +376,7 @@ TEST(FromBag, BadInputIsOneLine) {
   refused(options, "the bag holds its scene");
   options = from_bag(folder.file("run.bag"));
   options.bag = folder.file("run.bag");
-  refused(options, "is the recording that is run again");
+  refused(options, "would overwrite the recording that is run again");
   for (const char* split : {"10", "fast", "-1 s", "0 MB", "5 m"}) {
     options = from_bag(folder.file("run.bag"));
     options.bag_split = split;

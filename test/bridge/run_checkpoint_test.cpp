@@ -177,6 +177,47 @@ TEST_F(RunCheckpoint, RefusesAnotherScene) {
   options_.resume = options_.checkpoint;
   options_.set = {"gravity=[0, -1.62]"};
   expect_bad_input("it is of another scene, 'falling_block'");
+  EXPECT_NE(err_.str().find("in which output, metrics and the end of the run (--end) may change"), std::string::npos);
+}
+
+// Outputs and metrics are no state: a resumed run has those that it is given, and ends in the same state. Without
+// time.sync the sync period goes by output.period; it stays that of the run.
+TEST_F(RunCheckpoint, OutputsAndMetricsMayChange) {
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const std::string whole = summary()["state_hash"];
+  options_.checkpoint = folder_.file("run.h5");
+  int asked = 0;
+  ASSERT_EQ(run([&asked] { return asked++ == 7; }), RunSceneResult::done) << err_.str();
+  const std::string scene = options_.scene;
+  options_.resume = options_.checkpoint;
+  options_.checkpoint.clear();
+  options_.set = {"output.particle_fields=[mises]", "output.period=7.5 ms", "output.particle_stride=2",
+                  "metrics.late={mean: vz, at: 20 ms}", "metrics.steep={mean: vz, rate: {from: 20 ms, to: 50 ms}}"};
+  for (const std::string& named : {std::string(), scene}) {
+    options_.scene = named;
+    options_.csv = folder_.file(named.empty() ? "a" : "b");
+    ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+    EXPECT_EQ(summary()["state_hash"], whole);
+    // The block falls freely: its velocity is -g t.
+    EXPECT_NEAR(summary()["metrics"]["late"], -9.81 * 0.02, 1e-6);
+    EXPECT_NEAR(summary()["metrics"]["steep"], -9.81, 1e-4);
+    std::ifstream table(options_.csv + "/particles_0001.csv"), index(options_.csv + "/particles.csv");
+    std::string header, row;
+    std::getline(table, header);
+    EXPECT_EQ(header, "id [1],x [m],y [m],z [m],mises [Pa]");
+    std::vector<std::string> times;
+    while (std::getline(index, row)) times.push_back(row.substr(row.find(',') + 1, row.rfind(',') - row.find(',') - 1));
+    EXPECT_EQ(times, (std::vector<std::string>{"time [s]", "0.0175", "0.0225", "0.03", "0.0375", "0.045", "0.05"}));
+  }
+  options_.csv.clear();
+  const auto refused = [this](const std::string& change, const std::string& why) {
+    options_.set = {change};
+    expect_bad_input(why);
+  };
+  refused("output.period=6 ms", "output.period: 0.006 s is not a whole number of sync periods of 0.0025 s");
+  refused("time.sync=1.25 ms", "time.sync is 0.0025 s there and 0.00125 s here");
+  refused("metrics.early={mean: vz, at: 10 ms}", "metrics.early: it looks at t = 0.01 s, and the run goes on from");
+  refused("output.particle_fields=[ux]", "do not remember where they were at the start");
 }
 
 /// Queues a velocity for a later time; two poses, of which the second begins when the first is reached; and a velocity

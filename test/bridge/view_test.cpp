@@ -182,8 +182,8 @@ TEST(ParticleColours, AnOutlierDoesNotSetTheRange) {
   EXPECT_EQ(*(x + 7), 7.0F);
   EXPECT_EQ(*(z + 7), 0.5F);
   const auto sum = [&](int i) { return int((rgb + i)[0]) + int((rgb + i)[1]) + int((rgb + i)[2]); };
-  EXPECT_LT(sum(0), sum(50));
-  EXPECT_LT(sum(50), sum(98));
+  EXPECT_GT(sum(0), sum(50));  // dark is the upper end, as in the pictures of bag_report
+  EXPECT_GT(sum(50), sum(98));
   EXPECT_EQ(sum(98), sum(99));  // beyond the end: its colour
 }
 

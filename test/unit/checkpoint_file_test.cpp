@@ -99,6 +99,23 @@ void overwrite(const std::string& path, const char* name, hid_t type, const void
   H5Fclose(file);
 }
 
+// A damaged header of an array leaves the library with parts of the file open, of which it would tell at the end of the
+// program.
+TEST_F(BadCheckpoint, IsToldOfByUsAlone) {
+  std::ifstream file(file_, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::size_t header = bytes.find("OHDR", bytes.size() / 2);
+  ASSERT_LT(header, bytes.size() - 20);
+  bytes[header + 20] = static_cast<char>(~bytes[header + 20]);
+  std::ofstream(file_, std::ios::binary) << bytes;
+  EXPECT_EXIT(
+      {
+        expect_refused("it has no '");
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "^$");
+}
+
 TEST_F(BadCheckpoint, IsOfAnotherVersion) {
   const std::uint32_t version = kCheckpointVersion + 1;
   overwrite(file_, "about/version", H5T_NATIVE_UINT32, &version);

@@ -172,6 +172,7 @@ TEST(Suites, HaveNamesOfTheirOwnAndRefuseOthers) {
     FAIL();
   } catch (const StudyError& error) {
     EXPECT_NE(std::string(error.what()).find("no suite is called 'square'; there are bar_small, "), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find(", and tool_force, which is run alone"), std::string::npos);
   }
 }
 

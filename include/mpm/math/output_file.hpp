@@ -11,6 +11,10 @@ namespace mpm {
 /// would replace, or block on. Empty for a regular file or a new one.
 std::string refused_output(const std::string& path);
 
+/// The file that a name stands for: from the root, links followed, also one to a file that is not there yet. Two names
+/// for one file have the same, unless it has two directory entries (hard links).
+std::string behind_links(const std::string& path);
+
 /// The inode number of a file, by which machines that share a disk know it; 0 if there is none of this name.
 std::uint64_t inode_of(const std::string& path);
 

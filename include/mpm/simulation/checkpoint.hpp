@@ -51,7 +51,7 @@ struct CheckpointAbout {
 };
 
 inline constexpr const char* kCheckpointFormat = "mpm_ros checkpoint";
-inline constexpr std::uint32_t kCheckpointVersion = 5;
+inline constexpr std::uint32_t kCheckpointVersion = 6;
 
 /// Serialises the state of a run that is outside the Simulation.
 using SerialiseMore = std::function<void(StateArchive&)>;
@@ -63,10 +63,14 @@ CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation,
 std::string text_difference(const std::string& here, const std::string& there);
 /// @throws CheckpointError for a file that is not a checkpoint, or of another version
 CheckpointAbout read_checkpoint(const std::string& path);
-/// `scene_text`: the scene from which `simulation` was built. @throws CheckpointError for a file that is not a
-/// checkpoint, is damaged, belongs to another version, scene, instruction set or precision, or to a run that failed. If
-/// the file is damaged the simulation cannot go on; otherwise it is not changed.
+/// Of the text of a checkpoint's scene, how it differs from the scene that is to go on from there, in words; empty
+/// where it can.
+using SceneDifference = std::function<std::string(const std::string& recorded)>;
+/// `scene_text`: the scene from which `simulation` was built. `difference`: what counts as another one; any other text,
+/// unless it is given. Metrics that the recorded run had go on, others begin. @throws CheckpointError for a file that
+/// is not a checkpoint, is damaged, belongs to another version, scene, instruction set or precision, or to a run that
+/// failed. If the file is damaged the simulation cannot go on; otherwise it is not changed.
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
-                                const SerialiseMore& more = {});
+                                const SerialiseMore& more = {}, const SceneDifference& difference = {});
 
 }  // namespace mpm

@@ -130,6 +130,7 @@ struct ParticleColumn {
   std::string name;
   std::string unit;  ///< empty: not known, left out of the header
   std::vector<float> values;
+  std::vector<double> fine;  ///< the same in double precision, where it is recorded so; else empty
 };
 
 /// particles_NNNN.csv: one file a snapshot, one row a particle; particles.csv lists the files with their times.

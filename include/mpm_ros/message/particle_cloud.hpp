@@ -13,8 +13,9 @@ namespace mpm_ros {
 
 /// Which particles and which of their fields are written.
 struct ParticleSelection {
-  std::vector<std::string> fields;  ///< names that mpm::Simulation::particle_field() knows, beside x, y, z, id
-  mpm::ParticleChoice choice;       ///< which particles
+  std::vector<std::string> fields;       ///< names that mpm::Simulation::particle_field() knows, beside x, y, z, id
+  mpm::ParticleChoice choice;            ///< which particles
+  mpm::Vec3 origin = mpm::Vec3::Zero();  ///< from which places ("x", "x0", …) are written [m]
 };
 
 /// Why a selection cannot be used, naming the nearest field or the range; empty when it can.
@@ -36,7 +37,15 @@ class ParticleCloud {
   sensor_msgs::PointCloud2& message() { return cloud_; }
 
  private:
+  /// Places from the origin; takes the columns of what float32 left of them away.
+  void move_places();
   ParticleSelection selection_;
+  /// The columns of a place and of its rest, with the origin's coordinate; none where the origin is the world's.
+  struct Place {
+    std::size_t column, rest;
+    double origin;
+  };
+  std::vector<Place> places_;
   std::vector<std::string> names_;  ///< of the columns
   mpm::ParticleColumns columns_;
   sensor_msgs::PointCloud2 cloud_;

@@ -18,6 +18,7 @@ constexpr const char* kMarkers = "markers";             ///< shapes of the rigid
 constexpr const char* kForceMarkers = "force_markers";  ///< an arrow a body
 constexpr const char* kClock = "/clock";
 constexpr const char* kTf = "/tf";
+constexpr const char* kTfStatic = "/tf_static";  ///< latched; of scenes far from the origin alone (local_frame.hpp)
 
 constexpr const char* kPause = "pause";
 constexpr const char* kReset = "reset";

@@ -18,6 +18,7 @@ struct View {
   double pitch = 0.0;                   ///< of the eye above the horizon [rad]
   double floor = 0.0;                   ///< height of the lowest particle [m]
   double particle_size = 0.01;          ///< [m]
+  std::string frame;                    ///< of the particles; empty: that of the configuration
   std::string field;                    ///< that colours the particles; empty: none is there
   std::string coloured;  ///< topic of the cloud with colours (rgb); empty: RViz colours the particles' own
   std::string bar;       ///< topic of the colour bar's markers; empty: there is none
@@ -33,7 +34,8 @@ struct View {
 
 /// All of the domain in the picture (empty: of the particles), each particle as large as their spacing; planar scenes
 /// (all y equal) from the front.
-/// `field`: wished for; when the cloud does not have it (or it is empty) the first of speed, p, and the cloud's own.
+/// `field`: wished for; when the cloud does not have it (or it is empty) what is transported, if the cloud's own fields
+/// begin with it, else the first of speed, p, and the cloud's own.
 View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field = {}, const mpm::Box& domain = {});
 
 /// An RViz configuration (YAML text) with the view put in: camera, particles, a reference grid below them (behind them

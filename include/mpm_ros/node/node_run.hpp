@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/files_in_use.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
 #include "mpm_ros/run/run.hpp"
@@ -15,8 +16,12 @@ namespace mpm_ros {
 RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
                        const std::string& topics_below, const std::vector<std::string>& set = {});
 
-/// What only both together show: no recording over what is read, particle fields that there are, a clock that can be
-/// set back. @throws ParameterError
-void check(const NodeParameters& parameters, const RunOptions& options);
+/// What only all together show: no recording over what is read, particle fields that there are, a clock that can be set
+/// back. @throws ParameterError
+void check(const NodeParameters& parameters, const RunOptions& options, const mpm::Scene& scene);
+
+/// What the node reads of its scene, the commands that it is to repeat, and what it records: for the names of further
+/// files. `record`: the bag of the run, or empty.
+mpm::FilesInUse files_of(const NodeParameters& parameters, const mpm::Scene& scene, const std::string& record);
 
 }  // namespace mpm_ros

@@ -21,6 +21,8 @@ class Publishers : public MessageSink {
   void add_global();
   /// The same of cracks.
   void add_cracks();
+  /// The same of the frame of a scene far from the origin.
+  void add_static_frames();
 
   bool wants(const std::string& topic) const override;
   void put(const std::string& topic, const ros::Time&, const RunInfo& m) override { at(topic).publish(m); }

@@ -50,6 +50,7 @@ class Animation : public RunVisitor {
   void send(const void* data, std::size_t bytes);
 
   std::string field_;
+  const mpm::Vec3 corner_;  ///< from which places are sent [m]
   Script script_;
   std::vector<std::array<float, 4>> rows_;
 };

@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/geometry.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
@@ -46,6 +47,7 @@ class RunVisitor {
   virtual void command(std::int64_t time, const Command& message) { unused(time, message); }
   /// A message on /clock, where that was recorded too.
   virtual void clock(std::int64_t time) { unused(time, 0); }
+  /// Places are float64 in a scene that lies far from the origin.
   virtual void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) { unused(time, message); }
   virtual void markers(const visualization_msgs::MarkerArray& message) { unused(0, message); }
 
@@ -103,6 +105,9 @@ class RunBag {
   template <typename Message>
   void hand_on(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors,
                void (RunVisitor::*receive)(std::int64_t, const Message&)) const;
+  /// Clouds as they lie in the world.
+  void hand_on_cloud(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors) const;
+  void find_frames();
 
   std::string path_;
   std::string name_space_;
@@ -112,6 +117,7 @@ class RunBag {
   std::optional<RunInfo> info_;
   std::vector<std::string> missing_;
   std::vector<std::string> particle_fields_;
+  std::map<std::string, mpm::Vec3> origins_;  ///< of frames that are not the world's (local_frame.hpp)
   Stamps stamps_;
 };
 

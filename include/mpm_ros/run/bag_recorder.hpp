@@ -102,6 +102,7 @@ class BagRecorder : public MessageSink {
   std::string failure_;
   std::optional<RunInfo> info_;
   std::optional<visualization_msgs::MarkerArray> markers_;
+  std::optional<tf2_msgs::TFMessage> frames_;
   ros::Time last_;         ///< stamp written last
   std::uint64_t end_ = 0;  ///< [ns] stamp at which the present part ends by its duration; 0: nothing is written yet
   std::chrono::steady_clock::time_point chunk_began_;

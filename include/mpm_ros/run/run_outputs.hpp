@@ -21,6 +21,7 @@
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/message/contact_average.hpp"
+#include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/markers.hpp"
 #include "mpm_ros/message/message_sink.hpp"
 #include "mpm_ros/message/particle_cloud.hpp"
@@ -84,6 +85,11 @@ class RunOutputs {
   ContactForces contact_forces(const Contacts& contacts) const;
   BodyStates body_states() const;
   ros::Time stamp() const;
+  /// Of clouds and markers.
+  const LocalFrame& local_frame() const { return local_; }
+  /// After a checkpoint was loaded. @throws mpm::CheckpointError, which names it, where the particles do not remember
+  /// what the chosen fields need
+  void check_fields(const std::string& checkpoint) const;
 
  private:
   template <typename Message>
@@ -100,6 +106,8 @@ class RunOutputs {
   /// Throws on all ranks if a sink has failed on one. @throws BagError on the others
   void end_writing();
   void read_contacts();
+  /// What does not change: where frames are, shapes.
+  void write_static();
   void write_contacts();
   void write_bodies();
   void write_state(bool with_hash, double real_time_factor);
@@ -121,6 +129,7 @@ class RunOutputs {
   std::vector<std::string> filtered_topics_;
   std::vector<WrenchFilter> filters_;  // of each body; empty: none
   std::vector<mpm::Wrench> filtered_;  // body axes
+  const LocalFrame local_;
   ParticleCloud cloud_;
   mpm::GlobalQuantities global_;
   GlobalQuantities global_message_;

@@ -14,13 +14,18 @@ namespace mpm_ros {
 /// The scene of `options`, or that of the checkpoint to be resumed where none is named. @throws mpm::Error
 mpm::Scene scene_of(const RunSceneOptions& options);
 
-/// The scene as the checkpoint's run has it: with what was chosen for its target, if it has one.
+/// The scene as the checkpoint's run has it: with its sync period, and with what was chosen for its target, if it has
+/// one.
 /// @throws mpm::CheckpointError where it is another scene, or has another target, than that run
 mpm::Scene with_choice_of(const mpm::Scene& scene, const std::string& path);
 
 /// Has the run go on from the checkpoint, with the instruction set that it was made with unless another is asked for.
 /// @throws mpm::CheckpointError
 void resume_from(const std::string& path, RunOptions& options);
+
+/// Names of files beside a checkpoint: while it is written, and of the state of a failure.
+std::string part_of_checkpoint(const std::string& path);
+std::string failed_checkpoint(const std::string& path);
 
 class RunSceneCheckpoints {
  public:

@@ -1,8 +1,10 @@
 // The messages of a run written as CSV tables while it runs: the same tables that bag_report makes from a bag.
 #pragma once
 
+#include <map>
 #include <string>
 
+#include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/message_sink.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/report/report_csv.hpp"
@@ -34,6 +36,7 @@ class CsvSink : public MessageSink {
   Stamps stamps_;
   CsvExport tables_;
   SnapshotExport snapshots_;
+  std::map<std::string, mpm::Vec3> origins_;  ///< of frames that are not the world's
 };
 
 }  // namespace mpm_ros

@@ -1,7 +1,6 @@
 // What the options of run_scene say, each checked before anything is run or written.
 #pragma once
 
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -21,16 +20,17 @@ RunSceneOptions own_part(const RunSceneOptions& options);
 void check_alike(const RunSceneOptions& options, const mpm::Scene& scene);
 /// @throws mpm::SceneError that names the option
 mpm::Isa instruction_set(const RunSceneOptions& options);
-/// The scene, or that of the recording, to the end that was asked for. Call it before the summary is opened: what is
-/// refused here leaves that of an earlier run as it is. @throws mpm::Error
+/// The scene, or that of the recording, to the end that was asked for. @throws mpm::Error
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun);
 /// Where more threads are asked for than there are processors; else empty.
 std::string thread_warning(int threads);
 /// @throws mpm::SceneError for particle fields that are none
 void check_fields(const OutputOptions& output);
-/// Opens the file before the run, so that a path that cannot be written is reported before hours of work. No file for
-/// an empty path. @throws mpm::SceneError
-std::ofstream open_summary(const std::string& path);
+/// Tries whether the file can be written, and leaves it as it is: what cannot be is told before hours of work. An empty
+/// path is none. @throws mpm::SceneError
+void try_summary(const std::string& path);
+/// Makes the folder that an option names, and tries whether files can be made in it. @throws mpm::SceneError
+void try_folder(const std::string& option, const std::string& folder);
 /// Where a part of the bag ends: "500 MB" or "10 s". @throws mpm::SceneError
 void read_split(const std::string& text, BagOptions& bag);
 /// What goes on keeps what was recorded so far. @throws mpm::SceneError for a name that holds it

@@ -7,9 +7,11 @@
 #pragma once
 
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "mpm/ranks/communicator.hpp"
+#include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/message_sink.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/run/vtk_file.hpp"
@@ -51,8 +53,9 @@ class VtkSink : public MessageSink {
   std::string folder_;
   Stamps stamps_;
   mpm::Communicator* ranks_;
-  std::ofstream list_;  ///< run.pvd, of the first rank
-  int count_ = 0;       ///< of clouds
+  std::ofstream list_;                        ///< run.pvd, of the first rank
+  int count_ = 0;                             ///< of clouds
+  std::map<std::string, mpm::Vec3> origins_;  ///< of frames that are not the world's: then all is in double precision
   visualization_msgs::MarkerArray shapes_;
   BodyStates bodies_;  ///< as they were last
   Cracks cracks_;      ///< as they were last

@@ -23,6 +23,8 @@ class VtkFile {
  public:
   /// `time` [s]: what ParaView shows as the file's time. `points`: x, y, z of each in turn [m].
   VtkFile(double time, const std::vector<float>& points);
+  /// `fine`: they are written as float64, as float32 else.
+  VtkFile(double time, const std::vector<double>& points, bool fine);
 
   /// Every point is drawn by itself.
   void draw_points();
@@ -32,6 +34,7 @@ class VtkFile {
   void draw_lines(const std::vector<std::size_t>& points_of_line);
   /// A value for each point.
   void add(const std::string& name, const std::vector<float>& values);
+  void add(const std::string& name, const std::vector<double>& values);
   void add(const std::string& name, const std::vector<std::uint32_t>& values);
 
   /// @throws VtkError

@@ -25,6 +25,21 @@ std::string refused_output(const std::string& path) {
   }
 }
 
+std::string behind_links(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;  // as the system's own limit: then they go round
+  std::error_code error;
+  fs::path file = fs::absolute(path, error);
+  if (error) return path;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(file, error)); ++links) {
+    const fs::path target = fs::read_symlink(file, error);
+    if (error) break;
+    file = target.is_absolute() ? target : file.parent_path() / target;
+  }
+  const fs::path folder = fs::weakly_canonical(file.parent_path(), error);
+  return error ? file.lexically_normal().string() : (folder / file.filename()).lexically_normal().string();
+}
+
 std::uint64_t inode_of(const std::string& path) {
   struct stat about {};
   return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "mpm/scene/resumed_scene.hpp"
 #include "mpm/scene/source.hpp"
-#include "mpm/simulation/checkpoint.hpp"
 
 namespace mpm {
 namespace {
@@ -162,7 +162,7 @@ RecordedChoice with_recorded_choice(const Scene& scene, const std::string& recor
   const std::string text = YAML::Dump(root);
   try {
     const std::string whole = Source(text, scene.path, *lines).dump();
-    if (whole != recorded) return {{}, text_difference(whole, recorded)};
+    if (std::string difference = state_difference(whole, recorded); !difference.empty()) return {{}, difference};
     return {parsed_with(scene, text, *lines), {}};
   } catch (const SceneError& error) {
     return {{}, error.what()};

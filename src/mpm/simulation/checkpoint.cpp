@@ -67,17 +67,17 @@ CheckpointAbout about_of(const Simulation& simulation) {
 
 /// @throws CheckpointError
 void check(const std::string& path, const CheckpointAbout& there, const CheckpointAbout& here,
-           const std::string& scene_text) {
+           const std::string& difference) {
   const std::string start = fmt::format("checkpoint {}: ", path);
   if (!there.label.failure.empty()) {
     throw CheckpointError(fmt::format("{}it is of a run that failed and cannot go on ({}); take an earlier one", start,
                                       there.label.failure));
   }
-  if (there.label.scene_text != scene_text) {
-    throw CheckpointError(
-        fmt::format("{}it is of another scene, '{}': {}; resume with its own scene, or run this one "
-                    "from its start",
-                    start, there.scene, text_difference(scene_text, there.label.scene_text)));
+  if (!difference.empty()) {
+    throw CheckpointError(fmt::format(
+        "{}it is of another scene, '{}': {}; resume with its own scene, in which output, metrics and the end "
+        "of the run (--end) may change, or run this one from its start",
+        start, there.scene, difference));
   }
   if (there.precision != here.precision || there.method != here.method || there.geometry != here.geometry ||
       there.particles != here.particles) {
@@ -163,10 +163,12 @@ CheckpointAbout read_checkpoint(const std::string& path) {
 }
 
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
-                                const SerialiseMore& more) {
+                                const SerialiseMore& more, const SceneDifference& difference) {
   RanksReader file(simulation.ranks(), path);
   const CheckpointAbout about = read_about(file, path);
-  check(path, about, about_of(simulation), scene_text);
+  const std::string& recorded = about.label.scene_text;
+  const auto other_text = [&] { return recorded == scene_text ? "" : text_difference(scene_text, recorded); };
+  check(path, about, about_of(simulation), difference ? difference(recorded) : other_text());
   serialise_run(file, simulation, more);
   if (file.merging()) return about;  // in another order, which has other hashes
   if (simulation.memory_hash() != about.checksum || simulation.state_hash() != about.state_hash) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <utility>
@@ -67,13 +68,9 @@ bool Hdf5Id::close() {
 
 Hdf5Silence::Hdf5Silence() {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-Hdf5Silence::~Hdf5Silence() {
-  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  H5Eset_auto2(H5E_DEFAULT, print_, to_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // of this thread, where the library knows threads
+  // The library has asked to be closed at exit before, when it was first called; what is asked for later comes first.
+  [[maybe_unused]] static const int at_exit = std::atexit([] { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); });
 }
 
 Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {

@@ -117,11 +117,26 @@ const Field kFields[] = {
     {"body", "1", kNeedsNothing, [](const View& a) { return static_cast<double>(a.set.index); }},
 };
 
+/// What float32 leaves of a place: together they have it in double precision. For programs; their names cannot be
+/// written in a scene.
+double rest(double place) { return place - static_cast<double>(static_cast<float>(place)); }
+
+const Field kRests[] = {
+    {"x rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.x, 0, a.p)); }},
+    {"y rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.x, 1, a.p)); }},
+    {"z rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.x, 2, a.p)); }},
+    {"x0 rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.start_x, 0, a.p)); }, true},
+    {"y0 rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.start_x, 1, a.p)); }, true},
+    {"z0 rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.start_x, 2, a.p)); }, true},
+};
+
 /// Null for a name that is none of them.
 const Field* find_field(const std::string& name) {
-  const auto* const found =
-      std::find_if(std::begin(kFields), std::end(kFields), [&](const Field& f) { return name == f.name; });
-  return found == std::end(kFields) ? nullptr : found;
+  const auto is_it = [&](const Field& f) { return name == f.name; };
+  const auto* const found = std::find_if(std::begin(kFields), std::end(kFields), is_it);
+  if (found != std::end(kFields)) return found;
+  const auto* const rest = std::find_if(std::begin(kRests), std::end(kRests), is_it);
+  return rest == std::end(kRests) ? nullptr : rest;
 }
 
 /// A field that is read: one of every run, or numbers that a module brought.

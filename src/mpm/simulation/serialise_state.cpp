@@ -5,6 +5,12 @@
 // field; what bodies, stages and the mechanics keep; the limits that the next period's step comes from; sums for
 // reports. Not kept: nodal fields, and what else every step finds anew; `domain` and `next_x` of the particles, which a
 // step writes before it reads them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mpm/simulation/checkpoint.hpp"
 #include "state.hpp"
 #include "state_hash.hpp"
 
@@ -19,6 +25,70 @@ void serialise_scalars(StateArchive& archive, const char* name, std::vector<Part
 
 void serialise_arrays(StateArchive& archive, const char* name, std::vector<PaddedArray<double>>& arrays) {
   for (std::size_t c = 0; c < arrays.size(); ++c) archive.list(name + std::to_string(c), arrays[c]);
+}
+
+/// All that says what it measures, and its name: a metric of a resumed run goes on where it is the same.
+std::string identity_of(const MetricDefinition& metric) {
+  std::string text = fmt::format("{}|{}|{}|{}|{}", metric.name, metric.number, static_cast<int>(metric.statistic),
+                                 metric.field, metric.body);
+  if (!metric.formula.empty()) text += "|= " + metric.formula;
+  for (const auto& [constant, value] : metric.constants) text += fmt::format("|{}={}", constant, value);
+  if (metric.rate) text += fmt::format("|rate {} {}", metric.rate->from, metric.rate->to);
+  if (metric.over) text += fmt::format("|over {} {}", metric.over->from, metric.over->to);
+  if (metric.at) text += fmt::format("|at {}", *metric.at);
+  for (int axis = 0; metric.region && axis < 3; ++axis)
+    text += fmt::format("|{} {}", metric.region->min[axis], metric.region->max[axis]);
+  return text + "\n";
+}
+
+/// `now`: of the state that is read [s].
+void serialise_metrics(StateArchive& archive, const std::vector<MetricDefinition>& metrics, double now,
+                       std::vector<LineFit>& fits) {
+  const StateArchive::Group group(archive, "rates");
+  const StateArchive::Same same(archive);
+  std::string recorded;
+  for (const MetricDefinition& metric : metrics) recorded += identity_of(metric);
+  archive.value("metrics", recorded);
+  if (!archive.reading()) return LineFit::serialise(archive, fits);
+  std::vector<std::string> there;
+  for (std::size_t begin = 0, end = 0; (end = recorded.find('\n', begin)) != std::string::npos; begin = end + 1)
+    there.push_back(recorded.substr(begin, end + 1 - begin));
+  std::vector<LineFit> read(there.size());
+  LineFit::serialise(archive, read);
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    const auto found = std::find(there.begin(), there.end(), identity_of(metrics[m]));
+    fits[m] = found == there.end() ? LineFit() : read[static_cast<std::size_t>(found - there.begin())];
+    if (found != there.end()) continue;
+    const double from = metrics[m].rate   ? metrics[m].rate->from
+                        : metrics[m].over ? metrics[m].over->from
+                                          : metrics[m].at.value_or(now);
+    if (from >= now - 1e-12) continue;
+    throw CheckpointError(fmt::format(
+        "metrics.{}: it looks at t = {:g} s, and the run goes on from {:g} s without it; write a later time, "
+        "or leave it out",
+        metrics[m].name, from, now));
+  }
+}
+
+/// What metrics of force and torque remember. False where what is read was written without such metrics.
+bool serialise_wrenches(StateArchive& archive, std::vector<PeriodWrench>& wrenches) {
+  const StateArchive::Group group(archive, "wrenches");
+  const StateArchive::Same same(archive);
+  std::vector<PeriodWrench> kept = wrenches;
+  std::uint64_t bodies = kept.size();
+  archive.value("bodies", bodies);
+  kept.resize(bodies);
+  for (std::size_t b = 0; b < kept.size(); ++b) {
+    const StateArchive::Group of_body(archive, std::to_string(b));
+    archive.value("time", kept[b].time);
+    archive.value("impulse", kept[b].impulse);
+    archive.value("angular_impulse", kept[b].angular_impulse);
+    archive.value("force", kept[b].mean.force);
+    archive.value("torque", kept[b].mean.torque);
+  }
+  if (kept.size() != wrenches.size()) return wrenches.empty();
+  wrenches = std::move(kept);
+  return true;
 }
 
 }  // namespace
@@ -125,19 +195,6 @@ void Simulation::State::serialise(StateArchive& archive) {
     const StateArchive::Group group(archive, "energy_watch");
     energy_watch.serialise(archive);
   }
-  {
-    const StateArchive::Group group(archive, "rates");
-    const StateArchive::Same same(archive);
-    LineFit::serialise(archive, rates);
-    for (std::size_t b = 0; b < wrenches.size(); ++b) {
-      const StateArchive::Group of_body(archive, "wrench_" + std::to_string(b));
-      archive.value("time", wrenches[b].time);
-      archive.value("impulse", wrenches[b].impulse);
-      archive.value("angular_impulse", wrenches[b].angular_impulse);
-      archive.value("force", wrenches[b].mean.force);
-      archive.value("torque", wrenches[b].mean.torque);
-    }
-  }
   if (archive.reading() && over && !archive.merging()) {
     over->meet_as_read(fields);
     if (choice) choice->find_places();
@@ -151,6 +208,11 @@ void Simulation::State::serialise(StateArchive& archive) {
 
 void Simulation::serialise(StateArchive& archive) {
   state_->serialise(archive);
+  serialise_metrics(archive, state_->definition.metrics, 1e-9 * static_cast<double>(state_->time), state_->rates);
+  if (!serialise_wrenches(archive, state_->wrenches)) {
+    state_->find_wrenches();  // from here on
+    for (PeriodWrench& wrench : state_->wrenches) wrench.mean = {};
+  }
   double seconds = state_->wall.count();
   archive.value("wall", seconds);
   state_->wall = std::chrono::duration<double>(seconds);

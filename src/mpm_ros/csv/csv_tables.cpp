@@ -237,7 +237,13 @@ void ParticlesCsv::add(double time, const std::vector<std::uint32_t>& ids, const
   CsvWriter writer(folder_ + "/" + file, header);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     writer << static_cast<std::uint64_t>(ids[i]);
-    for (const ParticleColumn& column : columns) writer << column.values[i];
+    for (const ParticleColumn& column : columns) {
+      if (column.fine.empty()) {
+        writer << column.values[i];
+      } else {
+        writer << column.fine[i];
+      }
+    }
     writer.end_row();
   }
   writer.close();

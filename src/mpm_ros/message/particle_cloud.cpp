@@ -67,7 +67,7 @@ void fill_cloud(const std::vector<std::string>& fields, const mpm::ParticleColum
 
   std::uint8_t* out = cloud.data.data();
   for (std::size_t point = 0; point < points; ++point) {
-    for (std::size_t column = 0; column < columns.values.size(); ++column) {
+    for (std::size_t column = 0; column < 3 + fields.size(); ++column) {
       // The id stands between the position and the other fields.
       const std::size_t slot = column < 3 ? column : column + 1;
       std::memcpy(out + kScalar * slot, &columns.values[column][point], kScalar);
@@ -80,16 +80,37 @@ void fill_cloud(const std::vector<std::string>& fields, const mpm::ParticleColum
 ParticleCloud::ParticleCloud(ParticleSelection selection)
     : selection_(std::move(selection)), names_(std::begin(kPosition), std::end(kPosition)) {
   names_.insert(names_.end(), selection_.fields.begin(), selection_.fields.end());
+  const std::size_t written = names_.size();
+  for (std::size_t column = 0; column < written && selection_.origin != mpm::Vec3::Zero(); ++column) {
+    const std::string name = names_[column];
+    const bool place = name.front() >= 'x' && name.front() <= 'z' && (name.size() == 1 || name.substr(1) == "0");
+    if (!place) continue;
+    places_.push_back({column, names_.size(), selection_.origin[name.front() - 'x']});
+    names_.push_back(name + " rest");
+  }
+}
+
+void ParticleCloud::move_places() {
+  for (const Place& place : places_) {
+    std::vector<float>& values = columns_.values[place.column];
+    const std::vector<float>& rests = columns_.values[place.rest];
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double whole = static_cast<double>(values[i]) + static_cast<double>(rests[i]);
+      values[i] = static_cast<float>(whole - place.origin);
+    }
+  }
 }
 
 const sensor_msgs::PointCloud2& ParticleCloud::read(const mpm::Simulation& simulation) {
   simulation.read_particles(names_, selection_.choice, columns_);
+  move_places();
   fill_cloud(selection_.fields, columns_, cloud_);
   return cloud_;
 }
 
 const sensor_msgs::PointCloud2& ParticleCloud::read_own(const mpm::Simulation& simulation) {
   simulation.read_own_particles(names_, selection_.choice, columns_);
+  move_places();
   fill_cloud(selection_.fields, columns_, cloud_);
   return cloud_;
 }

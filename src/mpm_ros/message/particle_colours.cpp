@@ -20,8 +20,9 @@ constexpr double kBarAt = 1.17;      ///< right of the view's focus, in radii of
 
 using Rgb = std::array<double, 3>;
 
-/// From dark to light, to be seen on RViz's dark background: red, green, blue, 0 to 255, evenly spaced.
-constexpr std::array<Rgb, 4> kScale = {{{92, 70, 120}, {190, 60, 92}, {246, 130, 62}, {255, 232, 120}}};
+/// From light to dark, as in the pictures of bag_report; the darkest can be seen on RViz's dark background: red, green,
+/// blue, 0 to 255, evenly spaced.
+constexpr std::array<Rgb, 4> kScale = {{{255, 232, 120}, {246, 130, 62}, {190, 60, 92}, {92, 70, 120}}};
 
 /// `part` of the range, 0 to 1.
 Rgb colour_at(double part) {

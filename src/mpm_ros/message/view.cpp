@@ -26,10 +26,15 @@ std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::strin
   const auto there = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  for (const std::string& name : {wished, std::string("speed"), std::string("p")}) {
+  if (there(wished)) return wished;
+  const std::string first = names.size() > 4 ? names[4] : std::string();  // after x, y, z and id
+  for (const char* transported : {"temperature", "concentration", "pore_pressure"}) {
+    if (first == transported) return first;  // what the scene is about
+  }
+  for (const char* name : {"speed", "p"}) {
     if (there(name)) return name;
   }
-  return names.size() > 4 ? names[4] : std::string();  // after x, y, z and id
+  return first;
 }
 
 /// The usual distance of a particle from the one before it, which is its neighbour in the row it was laid in.
@@ -120,6 +125,7 @@ View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field, co
     box.add(point);
   }
   View view;
+  view.frame = cloud.header.frame_id;
   view.field = choose_field(cloud, field);
   if (points.empty()) return view;
   view.planar = box.size().y() == 0.0;
@@ -149,6 +155,8 @@ std::string with_view(const std::string& configuration, const View& view, const 
       if (type == "rviz/Grid") fit_grid(display, view);
       if (type == "rviz/TF") display["Marker Scale"] = 0.12 * view.distance;
     }
+    // RViz reckons in float32 from the origin of this frame.
+    if (!view.frame.empty()) manager["Global Options"]["Fixed Frame"] = view.frame;
     if (!view.bar.empty()) manager["Displays"].push_back(bar_display(view.bar));
     YAML::Node eye = manager["Views"]["Current"];
     eye["Distance"] = view.distance;

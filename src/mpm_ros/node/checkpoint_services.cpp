@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 #include "mpm_ros/run/output_names.hpp"
 
@@ -41,6 +42,8 @@ void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Respons
   try {
     if (path.empty()) throw mpm::CheckpointError("path is empty; name a file, such as run.h5");
     if (!failure_.empty()) throw mpm::CheckpointError("the run has failed and cannot go on: " + failure_);
+    files_of(parameters_, subject_->scene, run_->recorder() != nullptr ? run_->recorder()->path() : "")
+        .writes("path", path);
     const mpm::CheckpointAbout about =
         run_->save(path, [this](mpm::StateArchive& archive) { commands_.serialise(archive); });
     response.state_hash = hash_text(about.state_hash);

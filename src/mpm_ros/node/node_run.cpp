@@ -8,8 +8,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "mpm_ros/message/bag_parts.hpp"
+#include "mpm/math/json_text.hpp"
 #include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/run/run_files.hpp"
 
 namespace mpm_ros {
 
@@ -49,20 +50,29 @@ RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters
   options.bag_options.split_duration = std::llround(std::min(parameters.record_split_duration, 1e9) * 1e9);
   options.bag_options.required = parameters.record_required;
   options.parameters = parameters.text;
-  if (!set.empty()) options.parameters += fmt::format("\nreset_with: {}", nlohmann::json(set).dump());
+  if (!set.empty()) options.parameters += fmt::format("\nreset_with: {}", mpm::json_text(nlohmann::json(set)));
   return options;
 }
 
-void check(const NodeParameters& parameters, const RunOptions& options) {
+mpm::FilesInUse files_of(const NodeParameters& parameters, const mpm::Scene& scene, const std::string& record) {
+  mpm::FilesInUse files;
+  reads_scene(scene, files);
+  reads_bag("the bag of ~commands", parameters.commands, files);
+  writes_bag("~record", record, files);
+  return files;
+}
+
+void check(const NodeParameters& parameters, const RunOptions& options, const mpm::Scene& scene) {
   if (const std::string problem = problem_of(options.output.particles); !problem.empty()) {
     throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
   }
-  std::error_code ignored;
-  for (const std::string& part : parts_of(parameters.commands)) {
-    if (std::filesystem::equivalent(options.bag, part, ignored))
-      throw ParameterError(
-          fmt::format("parameter ~record: {} is the bag of ~commands; choose another name", options.bag));
+  try {
+    mpm::FilesInUse files = files_of(parameters, scene, options.bag);
+    files.writes("~resume", parameters.resume);  // as it may be, by save_checkpoint
+  } catch (const mpm::FileInUse& error) {
+    throw ParameterError(fmt::format("parameter {}", error.what()));
   }
+  std::error_code ignored;
   if (!parameters.resume.empty() && std::filesystem::exists(options.bag, ignored))
     throw ParameterError(fmt::format("parameter ~record: {} holds the run so far; choose another name", options.bag));
   if (parameters.reset_time == ResetTime::zero && !ros::Time::isSimTime()) {

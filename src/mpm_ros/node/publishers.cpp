@@ -36,6 +36,11 @@ void Publishers::add_global() {
   if (!publisher) publisher = node_.advertise<GlobalQuantities>(topics::kGlobalQuantities, kSmall);
 }
 
+void Publishers::add_static_frames() {
+  ros::Publisher& publisher = publishers_[topics::kTfStatic];
+  if (!publisher) publisher = node_.advertise<tf2_msgs::TFMessage>(topics::kTfStatic, 1, true);
+}
+
 void Publishers::add_cracks() {
   if (publishers_.count(topics::kCracks) > 0) return;
   publishers_[topics::kCracks] = node_.advertise<Cracks>(topics::kCracks, kSmall);

@@ -45,7 +45,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       commands_(node_, subject_->scene, parameters_, health_),
       paused_(parameters.start_paused) {
   RunOptions first_run = run_options(subject_->scene, parameters_, 1, node_.getNamespace());
-  check(parameters_, first_run);
+  check(parameters_, first_run, subject_->scene);
   ros::NodeHandle services(node_), urgent(node_);
   services.setCallbackQueue(&service_callbacks_);
   urgent.setCallbackQueue(&pause_callbacks_);
@@ -110,7 +110,7 @@ mpm::Scene SimulatorNode::aimed(mpm::Scene scene) const {
 }
 
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const std::string& checkpoint) const {
-  if (!subject_->scene.target) return subject_;
+  if (subject_->scene.text == mpm::read_checkpoint(checkpoint).label.scene_text) return subject_;
   mpm::Scene scene = aimed(with_choice_of(load(subject_->set), checkpoint));
   return checked({std::move(scene), subject_->set});
 }
@@ -124,7 +124,7 @@ std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const 
 
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::checked(Subject loaded) const {
   auto subject = std::make_shared<const Subject>(std::move(loaded));
-  check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()));
+  check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()), subject->scene);
   const auto bodies = [](const mpm::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> names;  // and the frames that they follow
     for (std::size_t body = 0; body < scene.commands.size(); ++body) {
@@ -156,6 +156,7 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   }
   if (!subject->scene.output.global.empty()) publishers_->add_global();
   if (subject->scene.definition.cracks.any()) publishers_->add_cracks();
+  if (local_frame(subject->scene.definition.grid, parameters_.world_frame).apart()) publishers_->add_static_frames();
   auto run = std::make_unique<Run>(subject->scene, options, stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
@@ -163,6 +164,7 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   pacer_->set_period(run_->simulation().sync_period());
   ++runs_;  // names the next bag
   record_lost_ = false;
+  if (const std::string note = note_on(run_->outputs().local_frame()); !note.empty()) ROS_INFO_STREAM(note);
   if (const BagRecorder* recorder = run_->recorder()) {
     ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
   }

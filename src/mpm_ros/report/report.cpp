@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 
+#include "mpm/math/files_in_use.hpp"
+#include "mpm/math/json_text.hpp"
+#include "mpm/math/output_file.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/report/recorded_run.hpp"
 #include "mpm_ros/report/report_animation.hpp"
@@ -24,6 +26,8 @@
 #include "mpm_ros/report/report_same.hpp"
 #include "mpm_ros/report/report_sweep.hpp"
 #include "mpm_ros/report/report_tables.hpp"
+#include "mpm_ros/run/run_files.hpp"
+#include "mpm_ros/sweep/study.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -66,13 +70,48 @@ void check_file(const std::string& option, const std::string& path) {
 }
 
 void write_json(std::ostream& out, const nlohmann::ordered_json& json, const std::string& path) {
-  out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  out << mpm::json_text(json, 2) << std::endl;
   if (!out) throw ReportError(path + ": cannot be written; check the folder and the space on its disk");
 }
 
 void write_json(const std::string& path, const nlohmann::ordered_json& json) {
-  std::ofstream file(path, std::ios::trunc);
-  write_json(file, json, path);
+  write_whole(path, mpm::json_text(json, 2) + "\n");
+}
+
+/// What a sweep's runs are made of and have left lies in its folder.
+void check_outside(const Study& study, const std::string& option, const std::string& path) {
+  if (path.empty() || path == kStandardOutput) return;
+  const std::string file = mpm::behind_links(path), runs = mpm::behind_links(study.folder() + "/runs");
+  for (const std::string& kept : {study.plan(), study.scene(), study.lock()}) {
+    if (mpm::behind_links(kept) == file)
+      throw ReportError(fmt::format("{} {}: is a file of the sweep; choose another name", option, path));
+  }
+  if (file == runs || file.compare(0, runs.size() + 1, runs + "/") == 0)
+    throw ReportError(fmt::format("{} {}: lies among the runs of the sweep; choose another folder", option, path));
+}
+
+/// No output over a bag, or over another output.
+void check_outputs(const ReportOptions& options) {
+  if (is_study(options.bags.front())) {
+    const Study study(options.bags.front());
+    for (const auto& [option, path] :
+         {std::pair("--json", options.json), {"--csv", options.csv}, {"--plots", options.plots}}) {
+      check_outside(study, option, path);
+    }
+    return;
+  }
+  mpm::FilesInUse files;
+  for (const std::string& bag : options.bags) reads_bag("the bag", bag, files);
+  if (options.json != kStandardOutput) files.writes("--json", options.json);
+  files.writes("--animate", options.animate);
+  const std::string tables = fmt::format("{}|{}", kCsvFiles, kFigures);
+  if (!options.csv.empty() && options.bags.size() > 1) {
+    for (const std::string& label : labels_of(options.bags))
+      files.writes_into("--csv", options.csv + "/" + label, tables);
+  } else {
+    files.writes_into("--csv", options.csv, tables);
+  }
+  files.writes_into("--plots", options.plots, ".*\\.png");
 }
 
 void check_options(const ReportOptions& options) {
@@ -86,6 +125,7 @@ void check_options(const ReportOptions& options) {
   if (!options.csv.empty()) check_folder("--csv", options.csv);
   if (!options.plots.empty()) check_folder("--plots", options.plots);
   if (!options.json.empty() && options.json != kStandardOutput) check_file("--json", options.json);
+  check_outputs(options);
   if (options.animate.empty()) return;
   if (options.bags.size() > 1) throw ReportError("--animate: shows one run; give one bag");
   const fs::path file(options.animate);

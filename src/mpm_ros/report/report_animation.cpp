@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mpm/math/json_text.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 #include "mpm_ros/report/report_error.hpp"
 #include "mpm_ros/report/report_messages.hpp"
@@ -16,6 +17,11 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::size_t kSample = 200000;  // values kept at most, for a range
+
+/// A field that a scene names first because it is about that.
+bool is_transported(const std::string& field) {
+  return field == "temperature" || field == "concentration" || field == "pore_pressure";
+}
 
 bool is_place(const std::string& field) { return field == "x" || field == "y" || field == "z" || field == "id"; }
 
@@ -34,6 +40,7 @@ std::string choose_field(const std::vector<std::string>& recorded, const std::st
     throw ReportError(fmt::format("--field {}: not recorded; there {}: {}", wanted, fields.size() == 1 ? "is" : "are",
                                   fields.empty() ? "none" : fmt::format("{}", fmt::join(fields, ", "))));
   }
+  if (!fields.empty() && is_transported(fields.front())) return fields.front();
   for (const char* telling : {"speed", "ep", "mises", "p"}) {
     if (has(telling)) return telling;
   }
@@ -65,7 +72,9 @@ double FieldRange::quantile(double part) const {
 }
 
 Animation::Animation(const std::string& csv, const std::string& file, const FieldRange& range, std::size_t frames)
-    : field_(range.field()), script_({plot_script(), csv, "--animate=" + file}, {true, false}) {
+    : field_(range.field()),
+      corner_(range.box().min),
+      script_({plot_script(), csv, "--animate=" + file}, {true, false}) {
   const auto corner = [](const mpm::Vec3& point) { return std::vector<double>{point.x(), point.y(), point.z()}; };
   const nlohmann::json head = {{"frames", frames},
                                {"field", field_},
@@ -74,7 +83,7 @@ Animation::Animation(const std::string& csv, const std::string& file, const Fiel
                                {"high", range.quantile(0.995)},
                                {"min", corner(range.box().min)},
                                {"max", corner(range.box().max)}};
-  const std::string line = head.dump() + "\n";
+  const std::string line = mpm::json_text(head) + "\n";
   send(line.data(), line.size());
 }
 
@@ -86,7 +95,8 @@ void Animation::particles(std::int64_t time, const sensor_msgs::PointCloud2& mes
   }
   rows_.resize(values.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    rows_[i] = {static_cast<float>(x.at(i)), static_cast<float>(y.at(i)), static_cast<float>(z.at(i)),
+    const mpm::Vec3 place = mpm::Vec3(x.at(i), y.at(i), z.at(i)) - corner_;  // which float32 holds anywhere
+    rows_[i] = {static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z()),
                 static_cast<float>(values.at(i))};
   }
   const double now = seconds(time);

@@ -13,6 +13,7 @@
 
 #include "mpm/math/input_file.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
+#include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/report/reindex.hpp"
 
@@ -79,6 +80,7 @@ RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(p
     find_run(name_space);
     find_start();
     check_parts();
+    find_frames();
     find_fields();
   } catch (const ros::Exception& error) {
     throw damaged(path_, error);
@@ -212,6 +214,15 @@ void RunBag::check_parts() const {
   }
 }
 
+void RunBag::find_frames() {
+  const auto type = types_.find(topics::kTfStatic);
+  if (type == types_.end() || type->second != type_of<tf2_msgs::TFMessage>()) return;
+  rosbag::View frames;
+  select(frames, {topics::kTfStatic});
+  for (const rosbag::MessageInstance& instance : frames)
+    for (const auto& [name, origin] : origins_of(*take<tf2_msgs::TFMessage>(instance, path_))) origins_[name] = origin;
+}
+
 void RunBag::find_fields() {
   rosbag::View clouds;
   select(clouds, {topic(topics::kParticles)});
@@ -225,6 +236,18 @@ void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<
                      void (RunVisitor::*receive)(std::int64_t, const Message&)) const {
   const typename Message::ConstPtr message = take<Message>(instance, path_);
   for (RunVisitor* visitor : visitors) (visitor->*receive)(stamps_.time_of(message->header.stamp), *message);
+}
+
+void RunBag::hand_on_cloud(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors) const {
+  const auto message = take<sensor_msgs::PointCloud2>(instance, path_);
+  const auto origin = origins_.find(message->header.frame_id);
+  const std::int64_t time = stamps_.time_of(message->header.stamp);
+  if (origin == origins_.end()) {
+    for (RunVisitor* visitor : visitors) visitor->particles(time, *message);
+    return;
+  }
+  const sensor_msgs::PointCloud2 cloud = in_world(*message, origin->second);
+  for (RunVisitor* visitor : visitors) visitor->particles(time, cloud);
 }
 
 void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& reading) {
@@ -260,7 +283,7 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& readi
       } else if (name == topics::kCommands) {
         hand_on(instance, visitors, &RunVisitor::command);
       } else if (name == topics::kParticles) {
-        hand_on(instance, visitors, &RunVisitor::particles);
+        hand_on_cloud(instance, visitors);
       } else if (!std::exchange(shaped, true)) {  // each part has them again
         const auto message = take<visualization_msgs::MarkerArray>(instance, path_);
         for (RunVisitor* visitor : visitors) visitor->markers(*message);
@@ -296,7 +319,7 @@ void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& vis
     for (const rosbag::MessageInstance& instance : view) {
       count.next();
       if (chosen.count(index++) == 0) continue;
-      hand_on(instance, {&visitor}, &RunVisitor::particles);
+      hand_on_cloud(instance, {&visitor});
     }
   } catch (const ros::Exception& error) {
     throw damaged(path_, error);

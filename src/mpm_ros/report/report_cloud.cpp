@@ -99,8 +99,11 @@ CloudColumns columns_of(const sensor_msgs::PointCloud2& cloud) {
       for (std::size_t i = 0; i < count; ++i) result.ids[i] = value_at<std::uint32_t>(cloud, i, field.offset);
     }
     if (!is_real(field)) continue;
-    ParticleColumn column{field.name, unit_of_field(field.name), std::vector<float>(count)};
+    ParticleColumn column{field.name, unit_of_field(field.name), std::vector<float>(count), {}};
     for (std::size_t i = 0; i < count; ++i) column.values[i] = real_at(cloud, i, field);
+    if (field.datatype == sensor_msgs::PointField::FLOAT64) {
+      for (std::size_t i = 0; i < count; ++i) column.fine.push_back(value_at<double>(cloud, i, field.offset));
+    }
     result.columns.push_back(std::move(column));
   }
   return result;

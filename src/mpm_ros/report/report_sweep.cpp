@@ -10,6 +10,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "mpm/math/json_text.hpp"
 #include "mpm_ros/csv/csv_writer.hpp"
 #include "mpm_ros/report/report_error.hpp"
 #include "mpm_ros/report/report_plots.hpp"
@@ -182,8 +183,7 @@ bool report_sweep(const ReportOptions& options, std::ostream& out) {
   const std::vector<SweepMetric> metrics = metrics_of(table);
   const bool only_json = options.json == "-";
   if (!options.json.empty()) {
-    const std::string text =
-        json_of(study.folder(), table, metrics).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string text = mpm::json_text(json_of(study.folder(), table, metrics), 2) + "\n";
     if (only_json) {
       out << text << std::flush;
     } else {

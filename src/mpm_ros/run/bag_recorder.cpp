@@ -185,6 +185,7 @@ void BagRecorder::begin_part(const ros::Time& stamp) {
     info_->part = static_cast<std::uint32_t>(part_);
     write_latched(topics::kRunInfo, stamp, *info_);
   }
+  if (frames_) write_latched(topics::kTfStatic, stamp, *frames_);
   if (markers_) write_latched(topics::kMarkers, stamp, *markers_);
 }
 
@@ -254,7 +255,10 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Cr
   write(topic, stamp, message);
 }
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) {
-  write(topic, stamp, message);
+  if (topic != topics::kTfStatic) return write(topic, stamp, message);
+  if (!bag_) return;
+  frames_ = message;
+  on_disk([&] { write_latched(topic, stamp, message); });
 }
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
   write(topic, stamp, message);

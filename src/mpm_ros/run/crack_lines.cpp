@@ -28,8 +28,9 @@ const CrackTip* tip_at(const Cracks& message, const Crack& crack, std::size_t k)
 
 }  // namespace
 
-VtkFile crack_lines(double time, const Cracks& message) {
-  std::vector<float> places, opening, slip, normal_traction, shear_traction, j, k_one, k_two;
+VtkFile crack_lines(double time, const Cracks& message, bool fine) {
+  std::vector<double> places;
+  std::vector<float> opening, slip, normal_traction, shear_traction, j, k_one, k_two;
   std::vector<std::uint32_t> numbers, faces, debonded;
   std::vector<std::size_t> lengths;
   for (std::size_t i = 0; i < message.cracks.size(); ++i) {
@@ -38,7 +39,7 @@ VtkFile crack_lines(double time, const Cracks& message) {
       lengths.push_back(crack.points.size());
       for (std::size_t k = 0; k < crack.points.size(); ++k) {
         const mpm::Vec3 above = from_message(crack.above.at(k)), below = from_message(crack.below.at(k));
-        for (const double coordinate : face == 1 ? above : below) places.push_back(static_cast<float>(coordinate));
+        for (const double coordinate : face == 1 ? above : below) places.push_back(coordinate);
         const mpm::Vec3 tangent = tangent_at(crack, k), left(-tangent.z(), 0.0, tangent.x());
         opening.push_back(static_cast<float>((above - below).dot(left)));
         slip.push_back(static_cast<float>((above - below).dot(tangent)));
@@ -54,7 +55,7 @@ VtkFile crack_lines(double time, const Cracks& message) {
       }
     }
   }
-  VtkFile file(time, places);
+  VtkFile file(time, places, fine);
   file.draw_lines(lengths);
   file.add("crack", numbers);
   file.add("face", faces);

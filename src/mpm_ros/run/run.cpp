@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mpm/scene/feasible.hpp"
+#include "mpm/scene/resumed_scene.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/together.hpp"
@@ -40,7 +41,9 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
       told_of_speed_(scene.definition.rigid_bodies.size(), false) {
   if (!options.resume.empty()) {
     const mpm::SerialiseMore both = [&](mpm::StateArchive& archive) { serialise(archive, options.more); };
-    from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both).time;
+    const auto difference = [&](const std::string& recorded) { return mpm::resumed_difference(scene, recorded); };
+    from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both, difference).time;
+    outputs_.check_fields(options.resume);
     resumed_ = true;
     for (const mpm::CrackTipReport& tip : simulation_.crack_tips()) told_of_tips_.push_back({!tip.has_j, tip.stopped});
   }

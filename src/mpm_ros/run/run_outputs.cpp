@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm/simulation/checkpoint.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
@@ -31,6 +33,11 @@ double arrow_length(const mpm::SimulationDefinition& scene) {
   mpm::Vec3 size = scene.grid.max - scene.grid.min;
   for (const int axis : mpm::axes_beside(scene.geometry)) size[axis] = 0.0;
   return kArrowLength * size.maxCoeff();
+}
+
+ParticleSelection from_origin(ParticleSelection selection, const LocalFrame& frame) {
+  selection.origin = frame.origin;
+  return selection;
 }
 
 }  // namespace
@@ -70,7 +77,8 @@ RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, Output
       particle_first_(options_.particle_first > 0.0 ? in_syncs(options_.particle_first, simulation.sync_period()) : 0),
       wrench_period_(in_syncs(options_.wrench_period, simulation.sync_period())),
       global_period_(in_syncs(options_.global_period, simulation.sync_period())),
-      cloud_(options_.particles),
+      local_(mpm_ros::local_frame(simulation.definition().grid, options_.world_frame)),
+      cloud_(from_origin(options_.particles, local_)),
       global_(simulation, options_.global),
       force_markers_(options_.force_scale, arrow_length(simulation.definition()),
                      simulation.definition().grid.max.z()) {
@@ -130,9 +138,24 @@ bool RunOutputs::wanted(const std::string& topic) const {
   return std::any_of(sinks_.begin(), sinks_.end(), [&](const MessageSink* sink) { return sink->wants(topic); });
 }
 
+void RunOutputs::write_static() {
+  if (local_.apart() && wanted(topics::kTfStatic)) put(topics::kTfStatic, static_transform(local_, stamp()));
+  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+}
+
+void RunOutputs::check_fields(const std::string& checkpoint) const {
+  if (!mpm::Simulation::needs_start(options_.particles.fields)) return;
+  mpm::ParticleColumns columns;
+  try {
+    simulation_.read_particles(options_.particles.fields, {std::numeric_limits<int>::max(), {}}, columns);
+  } catch (const mpm::DefinitionError& error) {
+    throw mpm::CheckpointError(fmt::format("checkpoint {}: {}", checkpoint, error.what()));
+  }
+}
+
 void RunOutputs::begin(const RunInfo& info) {
   put(topics::kRunInfo, info);
-  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+  write_static();
   read_contacts();
   write_bodies();
   write_contacts();
@@ -145,7 +168,7 @@ void RunOutputs::begin(const RunInfo& info) {
 
 void RunOutputs::begin_again(const RunInfo& info) {
   put(topics::kRunInfo, info);
-  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+  write_static();
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_cracks();
@@ -286,8 +309,10 @@ void RunOutputs::write_contacts() {
     put(filtered_topics_[body], message);
   }
   if (wanted(topics::kForceMarkers)) {
-    put(topics::kForceMarkers,
-        force_markers_.markers(contacts.bodies, options_.world_frame, stamp(), tops_of(simulation_)));
+    visualization_msgs::MarkerArray markers =
+        force_markers_.markers(contacts.bodies, options_.world_frame, stamp(), tops_of(simulation_));
+    move_to(local_, markers);
+    put(topics::kForceMarkers, markers);
   }
 }
 
@@ -332,7 +357,7 @@ void RunOutputs::write_particles(bool own) {
   });
   if (!simulation_.on_any_rank(wanted_here)) return;
   own ? cloud_.read_own(simulation_) : cloud_.read(simulation_);
-  cloud_.message().header = header(options_.world_frame);
+  cloud_.message().header = header(local_.name);
   put_to(topics::kParticles, cloud_.message(), meant);
 }
 
@@ -346,7 +371,10 @@ void RunOutputs::write_cracks() {
     message.header = header(options_.world_frame);
     put(topics::kCracks, message);
   }
-  if (wanted(topics::kCrackMarkers)) put(topics::kCrackMarkers, crack_markers(cracks, options_.world_frame, stamp()));
+  if (!wanted(topics::kCrackMarkers)) return;
+  visualization_msgs::MarkerArray markers = crack_markers(cracks, options_.world_frame, stamp());
+  move_to(local_, markers);
+  put(topics::kCrackMarkers, markers);
 }
 
 void RunOutputs::write_global() {

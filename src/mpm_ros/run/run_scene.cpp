@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <new>
@@ -10,17 +9,18 @@
 #include <optional>
 #include <utility>
 
+#include "mpm/math/json_text.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/command/command_log.hpp"
-#include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/run/aim.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/rerun.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "mpm_ros/run/run_files.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/run_scene_csv.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"
@@ -30,6 +30,7 @@
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 #include "mpm_ros/run/together.hpp"
+#include "mpm_ros/sweep/study.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -73,15 +74,15 @@ class OfflineRun {
     read_split(options_.bag_split, run_options.bag_options);
     if (rerun_) choose_as_recorded(run_options);
     together<mpm::SceneError>(options_.ranks.get(), [this] {
+      check_outputs(options_, scene_);
       if (!options_.resume.empty()) check_not_there(options_);
-      open_outputs();
+      try_outputs();
     });
-    open_vtk();
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
-    run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
-    if (vtk_) run_->add(*vtk_);
+    run_ = std::make_unique<Run>(scene_, run_options, stamps_, nullptr);
+    open_sinks();
     if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
       throw mpm::SceneError(fmt::format("--end: '{}' is before the checkpoint's time of {:g} s; write a later one",
                                         options_.end, static_cast<double>(run_->simulation().time()) * 1e-9));
@@ -115,6 +116,9 @@ class OfflineRun {
       return fmt::format("t = {:.4g} of {:.4g} s", static_cast<double>(simulation.time()) / 1e9, end / 1e9);
     };
     for (const std::string& note : notes_) err << note << "\n";
+    const bool shown = run_->recorder() != nullptr;
+    if (const std::string note = note_on(run_->outputs().local_frame()); shown && !note.empty())
+      err << "note: " << note << "\n";
     if (run_->recorder() != nullptr && run_->recorder()->replaced())
       err << "note: the recording " << run_->bag() << " is replaced\n";
     bool failed = false, room = true;
@@ -197,11 +201,6 @@ class OfflineRun {
       throw mpm::SceneError(
           fmt::format("--from-bag {}: the bag holds its scene; leave out {}", options.from_bag, options.scene));
     }
-    std::error_code ignored;
-    for (const std::string& part : parts_of(options.from_bag)) {
-      if (!options.bag.empty() && std::filesystem::equivalent(options.bag, part, ignored))
-        throw mpm::SceneError(fmt::format("--bag {}: is the recording that is run again; choose another", options.bag));
-    }
     return read_rerun(options.from_bag, !options.resume.empty());
   }
 
@@ -210,7 +209,7 @@ class OfflineRun {
     const RunInfo& info = rerun_->info;
     check_.emplace(*rerun_);
     commands_ = CommandLog(rerun_->commands);
-    run_options.parameters = fmt::format("from_bag: {}\n", nlohmann::json(options_.from_bag).dump());
+    run_options.parameters = fmt::format("from_bag: {}\n", mpm::json_text(nlohmann::json(options_.from_bag)));
     notes_.push_back(
         fmt::format("{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s",
                     info.scene, info.version, info.isa, rerun_->commands.size(),
@@ -227,20 +226,29 @@ class OfflineRun {
     if (isa != info.isa) check_->differs(fmt::format("instruction set {} in place of {}", isa, info.isa));
   }
 
-  /// What is written beside the bag, so that what cannot be is told before the run.
-  void open_outputs() {
+  /// What is written beside the bag, so that what cannot be is told before the run. Nothing is replaced yet: a run that
+  /// does not come to its start leaves what an earlier one wrote.
+  void try_outputs() {
     if (!options_.out.empty()) choose_folder();
-    summary_ = open_summary(options_.summary);
-    if (!options_.csv.empty())
-      csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
+    try_summary(options_.summary);
+    try_folder("--csv", options_.csv);
+    try_folder("--vtk", options_.vtk);
   }
 
-  /// On all ranks, in the folder that the first one has.
-  void open_vtk() {
+  /// When there is something to write. Files for ParaView on all ranks, in the folder that the first one has.
+  void open_sinks() {
     mpm::Communicator* ranks = options_.ranks.get();
     if (ranks != nullptr) options_.vtk = mpm::first_text(*ranks, options_.vtk);
-    if (options_.vtk.empty()) return;
-    together<mpm::SceneError>(ranks, [&] { vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_, ranks); });
+    together<mpm::SceneError>(ranks, [&] {
+      if (!options_.csv.empty()) {
+        const bool axisymmetric = mpm::axisymmetric(scene_.definition.geometry);
+        csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, axisymmetric);
+        run_->add(*csv_);
+      }
+      if (options_.vtk.empty()) return;
+      vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_, ranks);
+      run_->add(*vtk_);
+    });
   }
 
   /// A folder of its own, and in it all that was not given a place.
@@ -269,11 +277,14 @@ class OfflineRun {
   }
 
   bool write(const RunSummary& summary, std::ostream& err) {
-    if (!summary_.is_open()) return true;
-    summary_ << summary.json().dump(2) << "\n";
-    summary_.close();
-    if (!summary_) err << "run_scene: --summary: cannot be written; check the space on its disk\n";
-    return static_cast<bool>(summary_);
+    if (options_.summary.empty()) return true;
+    try {
+      write_whole(options_.summary, mpm::json_text(summary.json(), 2) + "\n");
+      return true;
+    } catch (const MachineError& error) {
+      err << "run_scene: --summary " << error.what() << "\n";
+      return false;
+    }
   }
 
   RunSceneOptions options_;
@@ -281,7 +292,6 @@ class OfflineRun {
   const Aim aim_;
   const mpm::Scene& scene_;
   RunSceneCheckpoints checkpoints_;
-  std::ofstream summary_;
   const Stamps stamps_;
   CommandLog commands_;  ///< recorded ones, to be applied again
   std::optional<RerunCheck> check_;

@@ -12,8 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/math/json_text.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
+#include "mpm/scene/resumed_scene.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/checkpoint.hpp"
@@ -22,9 +24,10 @@
 namespace mpm_ros {
 
 mpm::Scene with_choice_of(const mpm::Scene& scene, const std::string& path) {
-  if (!scene.target) return scene;
-  mpm::RecordedChoice choice = mpm::with_recorded_choice(scene, mpm::read_checkpoint(path).label.scene_text);
-  if (choice.scene) return std::move(*choice.scene);
+  const std::string recorded = mpm::read_checkpoint(path).label.scene_text;
+  if (!scene.target) return mpm::with_recorded_sync(scene, recorded);
+  mpm::RecordedChoice choice = mpm::with_recorded_choice(scene, recorded);
+  if (choice.scene) return mpm::with_recorded_sync(std::move(*choice.scene), recorded);
   throw mpm::CheckpointError(
       fmt::format("checkpoint {}: it is of another scene, or of another target: {}; resume with its own scene and what "
                   "was set in it, or run this one from its start",
@@ -35,15 +38,23 @@ mpm::Scene scene_of(const RunSceneOptions& options) {
   if (options.resume.empty()) return mpm::load_scene(options.scene, options.set);
   if (!options.scene.empty()) return with_choice_of(mpm::load_scene(options.scene, options.set), options.resume);
   const mpm::CheckpointAbout about = mpm::read_checkpoint(options.resume);
-  return mpm::parse_scene(about.label.scene_text, about.label.scene_path, options.set);
+  return mpm::with_recorded_sync(mpm::parse_scene(about.label.scene_text, about.label.scene_path, options.set),
+                                 about.label.scene_text);
 }
 
 void resume_from(const std::string& path, RunOptions& options) {
   const mpm::CheckpointAbout about = mpm::read_checkpoint(path);
   if (options.isa == "auto") options.isa = about.isa;
   options.resume = path;
-  options.parameters += fmt::format("resumed_from: {}\nresumed_at: {:.9f}\n", nlohmann::json(path).dump(),
+  options.parameters += fmt::format("resumed_from: {}\nresumed_at: {:.9f}\n", mpm::json_text(nlohmann::json(path)),
                                     static_cast<double>(about.time) * 1e-9);
+}
+
+std::string part_of_checkpoint(const std::string& path) { return path + ".part"; }
+
+std::string failed_checkpoint(const std::string& path) {
+  const std::filesystem::path file(path);
+  return (file.parent_path() / (file.stem().string() + "_failed" + file.extension().string())).string();
 }
 
 RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period)
@@ -67,7 +78,7 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
 }
 
 void RunSceneCheckpoints::try_path(mpm::Communicator* ranks) const {
-  const std::string part = path_ + ".part";
+  const std::string part = part_of_checkpoint(path_);
   const bool first = ranks == nullptr || ranks->first();
   together<mpm::SceneError>(ranks, [&] {
     if (first) make(part);
@@ -119,11 +130,10 @@ void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
 
 void RunSceneCheckpoints::at_failure(Run& run, const std::string& reason, std::ostream& err) {
   if (path_.empty() || over_ranks_) return;
-  std::filesystem::path failed(path_);
-  failed.replace_filename(failed.stem().string() + "_failed" + failed.extension().string());
+  const std::string failed = failed_checkpoint(path_);
   try {
-    run.save(failed.string(), {}, reason);
-    err << fmt::format("run_scene: the state of the failure is in {}\n", failed.string());
+    run.save(failed, {}, reason);
+    err << fmt::format("run_scene: the state of the failure is in {}\n", failed);
   } catch (const mpm::CheckpointError& error) {
     err << "warning: " << error.what() << "\n";
   }

@@ -18,7 +18,7 @@ bool CsvSink::wants(const std::string& topic) const {
                             topics::kCracks, topics::kParticles, topics::kCommands}) {
     if (topic == table) return true;
   }
-  return topic == topics::kMarkers;
+  return topic == topics::kMarkers || topic == topics::kTfStatic;
 }
 
 void CsvSink::put(const std::string&, const ros::Time& stamp, const ContactForces& message) {
@@ -40,15 +40,18 @@ void CsvSink::put(const std::string&, const ros::Time& stamp, const Command& mes
   tables_.command(stamps_.time_of(stamp), message);
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
-  snapshots_.particles(stamps_.time_of(stamp), message);
+  const auto origin = origins_.find(message.header.frame_id);
+  snapshots_.particles(stamps_.time_of(stamp), origin == origins_.end() ? message : in_world(message, origin->second));
 }
 void CsvSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
   tables_.markers(message);
+}
+void CsvSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage& message) {
+  origins_ = origins_of(message);
 }
 
 // Not wanted.
 void CsvSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
 void CsvSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
-void CsvSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
 
 }  // namespace mpm_ros

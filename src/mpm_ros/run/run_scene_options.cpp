@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "mpm/math/output_file.hpp"
@@ -18,6 +20,15 @@ namespace mpm_ros {
 namespace {
 
 constexpr const char* kAsOne = "; start the run as one process, or leave that out";
+
+/// Makes a file that is not there yet, and takes it away again. Why that cannot be done; empty if it can.
+std::string problem_of_new_file(const std::string& path) {
+  std::ofstream file;
+  std::string problem = mpm::open_output(file, path);
+  file.close();
+  if (problem.empty()) std::remove(path.c_str());
+  return problem;
+}
 
 /// The recorded scene, to where the recording ends.
 mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
@@ -96,12 +107,23 @@ mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Reru
   return scene;
 }
 
-std::ofstream open_summary(const std::string& path) {
-  std::ofstream file;
-  if (path.empty()) return file;
-  if (const std::string problem = mpm::open_output(file, path); !problem.empty())
-    throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, problem));
-  return file;
+void try_summary(const std::string& path) {
+  if (path.empty()) return;
+  std::string problem = mpm::refused_output(path);
+  if (problem.empty()) problem = problem_of_new_file(mpm::behind_links(path) + ".part");
+  if (!problem.empty()) throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, problem));
+}
+
+void try_folder(const std::string& option, const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw mpm::SceneError(
+        fmt::format("{} {}: the folder cannot be made: {}; choose another", option, folder, error.message()));
+  }
+  if (const std::string problem = problem_of_new_file(folder + "/mpm_ros.part"); !problem.empty())
+    throw mpm::SceneError(fmt::format("{} {}: no file can be made in the folder: {}", option, folder, problem));
 }
 
 void read_split(const std::string& text, BagOptions& bag) {

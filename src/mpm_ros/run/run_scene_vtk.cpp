@@ -28,17 +28,25 @@ std::vector<Value> column(const sensor_msgs::PointCloud2& cloud, const std::stri
   return values;
 }
 
-VtkFile particle_file(double time, const sensor_msgs::PointCloud2& cloud) {
-  std::vector<float> points;
+template <typename Value>
+std::vector<Value> points_of(const sensor_msgs::PointCloud2& cloud) {
+  std::vector<Value> points;
   points.reserve(3UL * cloud.width * cloud.height);
-  sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
+  sensor_msgs::PointCloud2ConstIterator<Value> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
   for (; x != x.end(); ++x, ++y, ++z) points.insert(points.end(), {*x, *y, *z});
-  VtkFile file(time, points);
+  return points;
+}
+
+/// `fine`: places are float64.
+VtkFile particle_file(double time, const sensor_msgs::PointCloud2& cloud, bool fine) {
+  VtkFile file = fine ? VtkFile(time, points_of<double>(cloud), true) : VtkFile(time, points_of<float>(cloud));
   file.draw_points();
   for (const sensor_msgs::PointField& field : cloud.fields) {
     if (field.name == "x" || field.name == "y" || field.name == "z") continue;
     if (field.datatype == sensor_msgs::PointField::UINT32) {
       file.add(field.name, column<std::uint32_t>(cloud, field.name));
+    } else if (field.datatype == sensor_msgs::PointField::FLOAT64) {
+      file.add(field.name, column<double>(cloud, field.name));
     } else {
       file.add(field.name, column<float>(cloud, field.name));
     }
@@ -71,9 +79,9 @@ void VtkSink::close() {
 }
 
 bool VtkSink::wants(const std::string& topic) const {
-  if (!first()) return topic == topics::kParticles;
-  return topic == topics::kParticles || topic == topics::kBodies || topic == topics::kMarkers ||
-         topic == topics::kCracks;
+  if (!first()) return topic == topics::kParticles || topic == topics::kTfStatic;
+  return topic == topics::kParticles || topic == topics::kTfStatic || topic == topics::kBodies ||
+         topic == topics::kMarkers || topic == topics::kCracks;
 }
 
 void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
@@ -82,11 +90,17 @@ void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs
 
 void VtkSink::put(const std::string&, const ros::Time&, const BodyStates& message) { bodies_ = message; }
 
+void VtkSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage& message) {
+  origins_ = origins_of(message);
+}
+
 void VtkSink::put(const std::string&, const ros::Time&, const Cracks& message) { cracks_ = message; }
 
 void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
   const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
-  const VtkFile file = particle_file(time, message);
+  const auto origin = origins_.find(message.header.frame_id);
+  const bool fine = origin != origins_.end();
+  const VtkFile file = particle_file(time, fine ? in_world(message, origin->second) : message, fine);
   if (ranks_ != nullptr) mpm::agree<VtkError>(ranks_, [&] { write_piece(file); });
   mpm::agree<VtkError>(ranks_, [&] {
     if (!first()) return;
@@ -116,13 +130,13 @@ void VtkSink::write_bodies(double time) {
     for (const BodyState& body : bodies_.bodies) {
       if (body.name != shape.header.frame_id) continue;
       const mpm::Pose pose = from_message(body.pose);
-      std::vector<float> points;
+      std::vector<double> points;
       points.reserve(3 * shape.points.size());
       for (const geometry_msgs::Point& point : shape.points) {
         const mpm::Vec3 place = pose.position + pose.orientation * mpm::Vec3(point.x, point.y, point.z);
-        for (const double coordinate : place) points.push_back(static_cast<float>(coordinate));
+        points.insert(points.end(), place.begin(), place.end());
       }
-      VtkFile file(time, points);
+      VtkFile file(time, points, !origins_.empty());
       file.draw_triangles();
       write(file, "body_" + file_stem(body.name), part, time);
     }
@@ -130,7 +144,7 @@ void VtkSink::write_bodies(double time) {
 }
 
 void VtkSink::write_cracks(double time) {
-  if (!cracks_.cracks.empty()) write(crack_lines(time, cracks_), "cracks", 0, time);
+  if (!cracks_.cracks.empty()) write(crack_lines(time, cracks_, !origins_.empty()), "cracks", 0, time);
 }
 
 void VtkSink::write(const VtkFile& file, const std::string& stem, int part, double time) {
@@ -151,7 +165,6 @@ void VtkSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
 void VtkSink::put(const std::string&, const ros::Time&, const ContactForces&) {}
 void VtkSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
 void VtkSink::put(const std::string&, const ros::Time&, const SolverState&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
 void VtkSink::put(const std::string&, const ros::Time&, const Command&) {}
 
 }  // namespace mpm_ros

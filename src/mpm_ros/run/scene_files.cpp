@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
+#include <string_view>
 
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/rigid/surface.hpp"
@@ -42,29 +44,70 @@ std::string hash_of(const fs::path& path) {
   return fmt::format("{:016x}", hash.value());
 }
 
-void find_files(const YAML::Node& node, const std::string& scene_path, std::vector<SceneFile>& files) {
+struct NamedFile {
+  std::string text;  ///< as the scene has it
+  fs::path file;
+};
+
+void find_files(const YAML::Node& node, const std::string& scene_path, std::vector<NamedFile>& files) {
   if (!node.IsScalar()) {
     for (const auto& entry : node) find_files(node.IsMap() ? entry.second : entry, scene_path, files);
     return;
   }
   const std::string text = node.Scalar();
-  const auto known = [&text](const SceneFile& file) { return file.path == text; };
+  const auto known = [&text](const NamedFile& file) { return file.text == text; };
   if (std::any_of(files.begin(), files.end(), known)) return;
-  const std::optional<fs::path> path = file_of(text, scene_path);
-  if (!path) return;
-  SceneFile file;
-  file.path = text;
-  file.hash = hash_of(*path);
-  files.push_back(file);
+  if (const std::optional<fs::path> file = file_of(text, scene_path)) files.push_back({text, *file});
+}
+
+std::vector<NamedFile> named_files(const std::string& text, const std::string& scene_path) {
+  std::vector<NamedFile> files;
+  const YAML::Node scene = YAML::Load(text);
+  for (const char* section : {"bodies", "rigid_bodies", "cracks"}) {
+    if (const YAML::Node part = scene[section]) find_files(part, scene_path, files);
+  }
+  return files;
+}
+
+/// The values of an attribute `filename` in a robot's description.
+std::vector<std::string> meshes_of(const fs::path& description) {
+  constexpr std::string_view kAttribute = "filename=", kScheme = "file://";
+  std::ifstream file(description, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<std::string> names;
+  for (std::size_t at = text.find(kAttribute); at != std::string::npos; at = text.find(kAttribute, at)) {
+    at += kAttribute.size();
+    if (at == text.size() || (text[at] != '"' && text[at] != '\'')) continue;
+    const std::size_t end = text.find(text[at], at + 1);
+    if (end == std::string::npos) break;
+    const std::string name = text.substr(at + 1, end - at - 1);
+    names.push_back(name.compare(0, kScheme.size(), kScheme) == 0 ? name.substr(kScheme.size()) : name);
+    at = end;
+  }
+  return names;
 }
 
 }  // namespace
 
 std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path) {
   std::vector<SceneFile> files;
-  const YAML::Node scene = YAML::Load(text);
-  for (const char* section : {"bodies", "rigid_bodies"}) {
-    if (const YAML::Node bodies = scene[section]) find_files(bodies, scene_path, files);
+  for (const NamedFile& named : named_files(text, scene_path)) {
+    SceneFile file;
+    file.path = named.text;
+    file.hash = hash_of(named.file);
+    files.push_back(file);
+  }
+  return files;
+}
+
+std::vector<std::string> files_read_by(const std::string& text, const std::string& scene_path) {
+  std::vector<std::string> files;
+  for (const NamedFile& named : named_files(text, scene_path)) {
+    files.push_back(named.file.string());
+    if (named.file.extension() != ".urdf" && named.file.extension() != ".xml") continue;
+    for (const std::string& mesh : meshes_of(named.file)) {
+      if (const std::optional<fs::path> file = file_of(mesh, named.file.string())) files.push_back(file->string());
+    }
   }
   return files;
 }

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mpm/math/files_in_use.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/sweep/plan.hpp"
 #include "mpm_ros/run/run_outputs.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"
+#include "mpm_ros/run/scene_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -39,6 +41,23 @@ std::string plan_text(const mpm::sweep::Plan& plan) {
 
 void write_if_new(const std::string& path, const std::string& text) {
   if (read_whole(path) != text) write_whole(path, text);
+}
+
+/// A study in whose folder the plan, or what it names, lies already is not written over that.
+void check_not_read(const mpm::sweep::Plan& plan, const std::string& plan_path, const Study& study,
+                    const std::string& base, const std::vector<std::string>& scenes) {
+  mpm::FilesInUse files;
+  files.reads("the plan", plan_path);
+  files.reads("the scene of the plan", plan.scene);
+  for (const std::string& file : files_read_by(base, plan.scene)) files.reads("a file that the scene reads", file);
+  const auto writes = [&](const std::string& path, const std::string& text) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored) && read_whole(path) != text) files.writes("--out", path);
+  };
+  writes(study.plan(), plan_text(plan));
+  writes(study.scene(), base);
+  for (std::size_t run = 0; run < scenes.size(); ++run)
+    writes(study.of_run(static_cast<int>(run) + 1, "scene.yaml"), scenes[run]);
 }
 
 }  // namespace
@@ -83,6 +102,7 @@ LaidOut lay_out(const std::string& plan_path, const Study& study, const std::fun
     scenes.push_back(std::move(resolved.text));
   }
   const std::string base = mpm::sweep::base_scene(plan);
+  if (!again) check_not_read(plan, plan_path, study, base, scenes);
   make_folder(study.folder());
   const FileLock lock = FileLock::take(study.lock());
   write_if_new(study.scene(), base);

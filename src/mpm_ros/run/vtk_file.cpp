@@ -20,6 +20,14 @@ VtkFile::VtkFile(double time, const std::vector<float>& points) : time_(time), p
   place_.push_back(array("Points", "Float32", 3, points));
 }
 
+VtkFile::VtkFile(double time, const std::vector<double>& points, bool fine) : time_(time), points_(points.size() / 3) {
+  if (fine) {
+    place_.push_back(array("Points", "Float64", 3, points));
+  } else {
+    place_.push_back(array("Points", "Float32", 3, std::vector<float>(points.begin(), points.end())));
+  }
+}
+
 template <typename Value>
 VtkFile::Array VtkFile::array(const std::string& name, const char* type, int components,
                               const std::vector<Value>& values) {
@@ -43,6 +51,10 @@ void VtkFile::draw(const char* kind, const std::vector<std::size_t>& points_of_c
 
 void VtkFile::add(const std::string& name, const std::vector<float>& values) {
   values_.push_back(array(name, "Float32", 1, values));
+}
+
+void VtkFile::add(const std::string& name, const std::vector<double>& values) {
+  values_.push_back(array(name, "Float64", 1, values));
 }
 
 void VtkFile::add(const std::string& name, const std::vector<std::uint32_t>& values) {

@@ -10,6 +10,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "mpm/math/json_text.hpp"
+
 namespace mpm_ros {
 namespace {
 
@@ -75,7 +77,7 @@ void Study::keep(int run, const RunResult& result) const {
   for (const auto& [name, value] : result.metrics) json["metrics"][name] = value;
   json["state_hash"] = result.state_hash;
   json["wall_seconds"] = result.wall_seconds;
-  write_whole(of_run(run, "result.json"), json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_whole(of_run(run, "result.json"), mpm::json_text(json, 2) + "\n");
 }
 
 bool is_study(const std::string& path) {

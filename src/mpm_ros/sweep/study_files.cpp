@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "mpm/math/input_file.hpp"
+#include "mpm/math/output_file.hpp"
 #include "mpm_ros/sweep/study.hpp"
 
 namespace mpm_ros {
@@ -52,7 +53,8 @@ int locked(const std::string& path, bool wait) {
 
 }  // namespace
 
-void write_whole(const std::string& path, const std::string& text) {
+void write_whole(const std::string& name, const std::string& text) {
+  const std::string path = mpm::behind_links(name);  // a link stays one
   const std::string part = path + ".part";
   const int descriptor = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail_to_write(path, errno);

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "mpm/math/json_text.hpp"
+
 namespace mpm::study::tool_force {
 namespace {
 
@@ -82,7 +84,7 @@ void write_json(std::ostream& out, const std::vector<ForceRow>& rows) {
   }
   json["rows"] = Json::array();
   for (const ForceRow& row : rows) json["rows"].push_back(of_row(row));
-  out << json.dump(1) << '\n';
+  out << json_text(json, 1) << '\n';
 }
 
 }  // namespace mpm::study::tool_force

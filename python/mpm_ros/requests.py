@@ -98,10 +98,14 @@ def _of_bodies(commands, what, lengths):
     return [(body, _numbers_of(body, values, lengths, what)) for body, values in commands.items()]
 
 
-def commands_of(velocity, pose, wrench):
+def commands_of(velocity, pose, wrench, velocity_body=None):
     """Messages mpm_ros/Command of the dicts that `Simulator.step` takes."""
     from .msg import Command
     commands = []
+    for body, numbers in _of_bodies(velocity_body, "velocity_body", (3, 6)):
+        command = Command(body=body, kind=Command.VELOCITY, twist=Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:])))
+        command.header.frame_id = body
+        commands.append(command)
     for body, numbers in _of_bodies(velocity, "velocity", (3, 6)):
         commands.append(Command(body=body, kind=Command.VELOCITY,
                                 twist=Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))

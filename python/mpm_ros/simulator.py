@@ -153,16 +153,17 @@ class Simulator:
 
     # --- what the node does -------------------------------------------------------------------------------------------
 
-    def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None):
+    def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None, velocity_body=None):
         """Advances by `duration` [s], rounded up to whole sync periods, or by `count` of them; by one when neither is
         given. Commands take effect at its start; each is a dict of bodies:
 
-        velocity  (3,) [m/s] of the body's origin, or (6,) with its rotation rate [rad/s]; world axes
-        pose      (7,) position [m] and quaternion x, y, z, w, to be reached at the end of the step
-        wrench    (3,) [N] on a free body, or (6,) with the torque [N m] about its origin
+        velocity       (3,) [m/s] of the body's origin, or (6,) with its rotation rate [rad/s]; world axes
+        velocity_body  the same in the axes of the body itself, which turn with it
+        pose           (7,) position [m] and quaternion x, y, z, w, to be reached at the end of the step
+        wrench         (3,) [N] on a free body, or (6,) with the torque [N m] about its origin; world axes
 
         Returns an Observation. Raises MpmError when a command is refused, the run has ended, or the physics fail."""
-        request = dict(advance(duration, count), commands=commands_of(velocity, pose, wrench))
+        request = dict(advance(duration, count), commands=commands_of(velocity, pose, wrench, velocity_body))
         with self._whole():
             answer = self._call("step", **request)
             return Observation(answer, self._particles_at(answer.stamp))

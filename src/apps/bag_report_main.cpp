@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "mpm_ros/report/report.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
 
 namespace {
 
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   // Temporary files are removed before the program ends.
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  mpm_ros::ignore_file_limit();
   options.stop_requested = [] { return stop_signal != 0; };
   const mpm_ros::ReportResult result = mpm_ros::run_report(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
   if (result == mpm_ros::ReportResult::stopped) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,8 +31,10 @@ struct Phase {
   double share(double time) const { return std::clamp(std::min(time - begin, end - time) / ramp, 0.0, 1.0); }
 };
 
-double number(XmlRpc::XmlRpcValue& value) {
-  return value.getType() == XmlRpc::XmlRpcValue::TypeInt ? static_cast<int>(value) : static_cast<double>(value);
+double number(const XmlRpc::XmlRpcValue& value) {
+  const std::optional<double> number = mpm_ros::number_of(value);
+  if (!number) throw std::runtime_error("something else than a number stands where one is wanted");
+  return *number;
 }
 
 void read_vector(XmlRpc::XmlRpcValue& phase, const char* key, double* result) {
@@ -40,9 +43,12 @@ void read_vector(XmlRpc::XmlRpcValue& phase, const char* key, double* result) {
   for (int i = 0; i < 3; ++i) result[i] = number(phase[key][i]);
 }
 
-std::vector<Phase> read_phases(const ros::NodeHandle& parameters) {
-  XmlRpc::XmlRpcValue list;
-  if (!parameters.getParam("phases", list)) throw std::runtime_error("it is not given; see the launch file");
+std::vector<Phase> read_phases(mpm_ros::ParameterReader& parameters) {
+  const XmlRpc::XmlRpcValue* given = parameters.find("phases");
+  if (given == nullptr) throw std::runtime_error("it is not given; see the launch file");
+  XmlRpc::XmlRpcValue list(*given);
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray)
+    throw std::runtime_error("it is not a list; see the launch file");
   std::vector<Phase> phases;
   for (int i = 0; i < list.size(); ++i) {
     XmlRpc::XmlRpcValue& value = list[i];
@@ -70,20 +76,28 @@ std::array<double, 6> twist_at(const std::vector<Phase>& phases, double time) {
 
 struct Settings {
   std::vector<Phase> phases;
-  double period = 0.0;  // [s] between commands
-  double lead = 0.0;    // [s]
-  std::string frame_id, topic;
+  double period = 0.01;  // [s] between commands
+  double lead = 0.1;     // [s]
+  std::string frame_id = "world", topic = "bodies/blade/cmd_vel_stamped";
 };
 
 Settings read_settings(const mpm_ros::ParameterSources& sources) {
   const mpm_ros::ForgetParameters forget(sources);
-  const ros::NodeHandle parameters("~");
+  const mpm_ros::ParameterValues values = mpm_ros::fetch_parameters(ros::NodeHandle("~"));
+  mpm_ros::ParameterReader parameters(values);
   Settings settings;
-  settings.phases = read_phases(parameters);
-  settings.period = parameters.param("period", 0.01);
-  settings.lead = parameters.param("lead", 0.1);
-  settings.frame_id = parameters.param<std::string>("frame_id", "world");
-  settings.topic = parameters.param<std::string>("topic", "bodies/blade/cmd_vel_stamped");
+  parameters.read("period", settings.period, 0.0, true);
+  parameters.read("lead", settings.lead, 0.0);
+  parameters.read("frame_id", settings.frame_id);
+  parameters.read("topic", settings.topic);
+  try {
+    settings.phases = read_phases(parameters);
+  } catch (const std::runtime_error& error) {
+    mpm_ros::ParameterReader::fail("phases", std::string("cannot be used: ") + error.what());
+  } catch (const XmlRpc::XmlRpcException& error) {
+    mpm_ros::ParameterReader::fail("phases", "cannot be used: " + error.getMessage());
+  }
+  for (const std::string& line : parameters.unknown()) ROS_WARN_STREAM(line);
   return settings;
 }
 
@@ -91,20 +105,13 @@ Settings read_settings(const mpm_ros::ParameterSources& sources) {
 
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
-  if (!mpm_ros::master_answers(argc, argv)) {
-    ROS_FATAL("no master answers at %s; start roscore, or a launch file", ros::master::getURI().c_str());
-    return 2;
-  }
-  ros::init(argc, argv, "blade_driver");
+  if (const auto refused = mpm_ros::begin_ros(argc, argv, "blade_driver")) return *refused;
   ros::NodeHandle node;
   Settings settings;
   try {
     settings = read_settings(sources);
-  } catch (const std::exception& error) {
-    ROS_FATAL("parameter ~phases: %s", error.what());
-    return 2;
-  } catch (const XmlRpc::XmlRpcException& error) {
-    ROS_FATAL("parameter ~phases: %s", error.getMessage().c_str());
+  } catch (const mpm_ros::ParameterError& error) {
+    ROS_FATAL_STREAM(error.what());
     return 2;
   }
   const std::vector<Phase>& phases = settings.phases;

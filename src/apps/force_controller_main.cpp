@@ -30,27 +30,26 @@
 namespace {
 
 struct Settings {
-  std::string body;
-  double target, gain, max_speed, filter, period, lead, duration, tolerance, hold;
+  bool lockstep = true;
+  std::string body = "probe";
+  double target = 10.0, gain = 0.01, max_speed = 0.05, filter = 0.02, period = 0.01, lead = 0.02, duration = 0.0,
+         tolerance = 0.02, hold = 1.0;
 };
 
-Settings read_settings(const ros::NodeHandle& parameters) {
-  const auto number = [&](const char* name, double standard, bool zero_too) {
-    const double value = parameters.param(name, standard);
-    if (std::isfinite(value) && (value > 0.0 || (zero_too && value == 0.0))) return value;
-    throw std::runtime_error(std::string("parameter ~") + name + " is " + std::to_string(value) + "; it must be " +
-                             (zero_too ? "at least" : "above") + " 0");
-  };
-  return {parameters.param<std::string>("body", "probe"),
-          number("target", 10.0, false),
-          number("gain", 0.01, false),
-          number("max_speed", 0.05, false),
-          number("filter", 0.02, true),
-          number("period", 0.01, false),
-          number("lead", 0.02, true),
-          number("duration", 0.0, true),
-          number("tolerance", 0.02, false),
-          number("hold", 1.0, false)};
+Settings read_settings(mpm_ros::ParameterReader& parameters) {
+  Settings settings;
+  parameters.read("lockstep", settings.lockstep);
+  parameters.read("body", settings.body);
+  parameters.read("target", settings.target, 0.0, true);
+  parameters.read("gain", settings.gain, 0.0, true);
+  parameters.read("max_speed", settings.max_speed, 0.0, true);
+  parameters.read("filter", settings.filter, 0.0);
+  parameters.read("period", settings.period, 0.0, true);
+  parameters.read("lead", settings.lead, 0.0);
+  parameters.read("duration", settings.duration, 0.0);
+  parameters.read("tolerance", settings.tolerance, 0.0, true);
+  parameters.read("hold", settings.hold, 0.0, true);
+  return settings;
 }
 
 class Controller {
@@ -171,25 +170,21 @@ int control_by_topics(ros::NodeHandle& node, const Settings& settings) {
 
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
-  if (!mpm_ros::master_answers(argc, argv)) {
-    ROS_FATAL("no master answers at %s; start roscore, or a launch file", ros::master::getURI().c_str());
-    return 2;
-  }
-  ros::init(argc, argv, "force_controller");
+  if (const auto refused = mpm_ros::begin_ros(argc, argv, "force_controller")) return *refused;
   ros::NodeHandle node;
   Settings settings;
-  bool lockstep = true;
   try {
     const mpm_ros::ForgetParameters forget(sources);
-    const ros::NodeHandle parameters("~");
-    lockstep = parameters.param("lockstep", true);
+    const mpm_ros::ParameterValues values = mpm_ros::fetch_parameters(ros::NodeHandle("~"));
+    mpm_ros::ParameterReader parameters(values);
     settings = read_settings(parameters);
+    for (const std::string& line : parameters.unknown()) ROS_WARN_STREAM(line);
   } catch (const std::runtime_error& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;
   }
   try {
-    return lockstep ? control_in_lockstep(node, settings) : control_by_topics(node, settings);
+    return settings.lockstep ? control_in_lockstep(node, settings) : control_by_topics(node, settings);
   } catch (const std::runtime_error& error) {
     ROS_FATAL_STREAM(error.what());
     return 1;

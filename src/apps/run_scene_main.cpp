@@ -13,6 +13,7 @@
 
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ranks/make_ranks.hpp"
+#include "mpm_ros/node/exit_watchdog.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/run_sweep.hpp"
 #include "mpm_ros/run/shared_cores.hpp"
@@ -24,9 +25,19 @@ namespace {
 int run(mpm_ros::RunSceneOptions options) {
   options.ranks = mpm::make_ranks();
   if (options.ranks && options.threads == 0) options.threads = mpm::threads_of_rank(*options.ranks);
+  // Until the run begins, which is when it is first asked whether it is to stop, nothing is written yet.
+  static mpm_ros::ExitWatchdog* watchdog = options.ranks ? nullptr : new mpm_ros::ExitWatchdog;  // lasts as its thread
+  const auto stop_requested = [] {
+    if (watchdog != nullptr) watchdog->must_finish();
+    return mpm_ros::stop_requested();
+  };
   try {
-    return static_cast<int>(
-        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
+    const mpm_ros::RunSceneResult result =
+        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, stop_requested);
+    const std::string used_up = mpm_ros::used_up();
+    if (used_up.empty() || result != mpm_ros::RunSceneResult::done) return static_cast<int>(result);
+    std::cerr << "run_scene: " << used_up << "\n";
+    return static_cast<int>(mpm_ros::RunSceneResult::machine_failed);
   } catch (const std::exception& error) {
     if (!options.ranks) throw;
     return mpm::end_all(*options.ranks, fmt::format("rank {}: run_scene: {}", options.ranks->rank(), error.what()), 1);
@@ -110,6 +121,7 @@ int main(int argc, char** argv) {
     }
     if (explain) {
       mpm::refuse_ranks("--explain");
+      static mpm_ros::ExitWatchdog watchdog;
       mpm_ros::explain_scene(options, std::cout);
       return 0;
     }

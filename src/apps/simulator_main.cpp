@@ -38,7 +38,8 @@ bool wait_for_master(int argc, char** argv) {
 
 /// The node, once its parameters are read: only then, because diagnostic_updater reads one by itself. What the command
 /// line wrote to the parameter server is deleted then, also when there is no node because something is wrong with it.
-std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSources& sources) {
+std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSources& sources,
+                                                  mpm_ros::ExitWatchdog& watchdog) {
   const mpm_ros::ForgetParameters forget(sources);
   const mpm_ros::ParameterValues values = mpm_ros::fetch_parameters(ros::NodeHandle("~"));
   const std::string origin = sources.text(values, ros::this_node::getName());
@@ -50,11 +51,12 @@ std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSource
   std::vector<std::string> warnings;
   const mpm_ros::NodeParameters parameters = mpm_ros::read_parameters(values, warnings);
   for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
-  return std::make_unique<mpm_ros::SimulatorNode>(ros::NodeHandle(), parameters);
+  mpm_ros::SimulatorNode::check_neighbours(ros::NodeHandle(), parameters);
+  return std::make_unique<mpm_ros::SimulatorNode>(ros::NodeHandle(), parameters, watchdog);
 }
 
 int run(const mpm_ros::ParameterSources& sources, mpm_ros::ExitWatchdog& watchdog) {
-  const std::unique_ptr<mpm_ros::SimulatorNode> node = make_node(sources);
+  const std::unique_ptr<mpm_ros::SimulatorNode> node = make_node(sources, watchdog);
   watchdog.must_finish();
   const int exit_code = node->spin();
   watchdog.ends(exit_code);
@@ -74,16 +76,24 @@ int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
   mpm_ros::catch_stop_signals();
   static mpm_ros::ExitWatchdog watchdog;
-  if (!wait_for_master(argc, argv)) return 0;
-  // Own signal handlers, because roscpp's would close the connections before the bag is closed.
-  ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
-  ros::start();
   int exit_code = 1;
   try {
+    mpm_ros::check_ros_words(argc, argv);
+    if (!wait_for_master(argc, argv)) return 0;
+    // Own signal handlers, because roscpp's would close the connections before the bag is closed.
+    mpm_ros::init_ros(argc, argv, "simulator", ros::init_options::NoSigintHandler);
+    ros::start();
     exit_code = run(sources, watchdog);
+  } catch (const mpm_ros::RosRefused& error) {
+    ROS_FATAL_STREAM(error.what());
+    return error.exit_code();
   } catch (const mpm::StoppedError& error) {
     ROS_WARN_STREAM(error.what());
     exit_code = 0;
+    if (const std::string used_up = mpm_ros::used_up(); !used_up.empty()) {
+      ROS_FATAL_STREAM(used_up);
+      exit_code = 1;
+    }
   } catch (const mpm::PhysicsError& error) {
     ROS_FATAL_STREAM(error.what());
     exit_code = 3;

@@ -25,6 +25,7 @@
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/run_namespaces.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/node/master.hpp"
 
 namespace {
 
@@ -178,11 +179,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  ros::init(argc, argv, "teleop", ros::init_options::NoSigintHandler | ros::init_options::AnonymousName);
+  constexpr auto kOptions = ros::init_options::NoSigintHandler | ros::init_options::AnonymousName;
+  if (const auto refused = mpm_ros::begin_ros(argc, argv, "teleop", kOptions)) return *refused;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, on_signal);
   try {
-    if (!ros::master::check())
-      throw std::runtime_error(fmt::format("no master at {}; start roscore", ros::master::getURI()));
     if (options.name_space.empty() && ros::this_node::getNamespace() == "/") {
       const std::vector<std::string> found = mpm_ros::running_namespaces();
       if (found.size() == 1) options.name_space = found.front();

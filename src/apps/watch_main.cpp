@@ -15,11 +15,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -31,6 +34,7 @@
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/message/view.hpp"
 #include "mpm_ros/node/master.hpp"
+#include "mpm_ros/node/neighbours.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
 
 namespace {
@@ -121,13 +125,27 @@ bool for_rviz(const std::string& word) {
   return begins("__") ? !begins("__name:=") && !begins("__log:=") : !begins("_");
 }
 
+/// Ends a program that is a node: as by Ctrl-C, so that it leaves the graph, and by force where it does not.
+void end_program(pid_t program) {
+  constexpr std::chrono::milliseconds kPatienceForNode{1000}, kLook{20};
+  int status = 0;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    kill(program, signal);
+    for (std::chrono::milliseconds waited{0}; waited < kPatienceForNode; waited += kLook) {
+      if (waitpid(program, &status, WNOHANG) != 0) return;
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+  kill(program, SIGKILL);
+  waitpid(program, &status, 0);
+}
+
 /// Waits for a program while callbacks are served; ends it when this node is told to end. Its exit code.
 int serve_until_end(pid_t program) {
   int status = 0;
   while (waitpid(program, &status, WNOHANG) == 0) {
     if (!ros::ok()) {
-      kill(program, SIGTERM);
-      waitpid(program, &status, 0);
+      end_program(program);
       return 0;
     }
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
@@ -187,11 +205,8 @@ std::string write_fitted(const std::string& path, const mpm_ros::View& view, con
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
   std::vector<char*> words(argv, argv + argc);  // with the arguments that roslaunch appended, which RViz accepts too
-  if (!mpm_ros::master_answers(argc, argv)) {
-    ROS_FATAL("no master answers at %s; start roscore, or a launch file", ros::master::getURI().c_str());
-    return 2;
-  }
-  ros::init(argc, argv, "watch", ros::init_options::AnonymousName);  // several can watch
+  // Several can watch, each under a name of its own.
+  if (const auto refused = mpm_ros::begin_ros(argc, argv, "watch", ros::init_options::AnonymousName)) return *refused;
   const std::string field = field_asked(sources);
   if (argc > 2) {
     ROS_FATAL("usage: rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]");
@@ -220,11 +235,17 @@ int main(int argc, char** argv) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (for_rviz(words[i])) command.push_back(words[i]);
   }
+  // A name that is known, so that nothing is left of it when it is gone, however it ends.
+  const std::string node = ros::this_node::getName() + "_rviz";
+  std::string name = "__name:=" + node.substr(node.rfind('/') + 1);
+  command.push_back(name.data());
   command.push_back(nullptr);
   pid_t program = 0;
   if (posix_spawnp(&program, rviz.c_str(), nullptr, nullptr, command.data(), environ) != 0) {
     ROS_FATAL("watch: rviz cannot be started; install it with scripts/install_packages rviz");
     return 1;
   }
-  return serve_until_end(program);
+  const int exit_code = serve_until_end(program);
+  mpm_ros::forget_node(node);
+  return exit_code;
 }

@@ -82,7 +82,8 @@ TEST_F(TooFast, APoseOfMoreThanACellInASyncPeriodIsAJump) {
   EXPECT_EQ(jump_of(command_, simulation_), "");
   command_.pose.position.z() += 0.02 * 0.01;
   const std::string jump = jump_of(command_, simulation_);
-  EXPECT_EQ(jump.substr(0, 13), "'plate' jumps") << jump;
+  EXPECT_EQ(jump.substr(0, 27), "'plate' jumps 2.01 cells, f") << jump;  // how far, from where, where to
+  EXPECT_NE(jump.find("rom (0.1, 0, 0.065) to (0.1, 0, 0.0851) m"), std::string::npos) << jump;
   expect_taken();  // accepted and carried out
   command_.kind = CommandKind::velocity;
   command_.twist.linear.z() = 100.0;  // an explicit velocity has no such limit

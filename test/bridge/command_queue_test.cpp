@@ -100,6 +100,7 @@ TEST(CommandQueue, TheOldestWithoutAStampMakesRoom) {
     }
     queue.release();
     EXPECT_EQ(queue.waiting(), CommandQueue::kMost + 1);
+    EXPECT_EQ(queue.dropped(), kBeyond);
     const Speeds applied = speeds(queue.take(10));
     ASSERT_EQ(applied.size(), CommandQueue::kMost + 1);
     EXPECT_EQ(applied[0], -1.0);

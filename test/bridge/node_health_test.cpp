@@ -184,6 +184,36 @@ TEST(CommandHealth, WarnsOfABodyThatWaitsForItsFrame) {
   EXPECT_EQ(after.level, DiagnosticStatus::OK);
 }
 
+TEST(CommandHealth, WarnsForAWhileOfWhatWasDroppedAndCountsIt) {
+  NodeHealth health;
+  CommandHealth commands;
+  commands.dropped = 7;
+  commands.missing = 2;
+  health.set_commands(commands);
+  health.set_commands(commands);  // no more than before
+  Status status;
+  health.fill_commands(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_NE(status.message.find("7 commands and 0 messages of tf have been dropped"), std::string::npos);
+  EXPECT_EQ(value_of(status, "dropped"), "7");
+  EXPECT_EQ(value_of(status, "gaps in header.seq"), "2");
+  Status later;
+  health.fill_commands(later, NodeHealth::Clock::now() + NodeHealth::kFresh);
+  EXPECT_EQ(later.level, DiagnosticStatus::OK);
+}
+
+TEST(CommandHealth, WarnsOfAFrameThatAnotherNodePublishesToo) {
+  NodeHealth health;
+  health.share_frame("blade", "/other/simulator");
+  EXPECT_TRUE(health.take_news());
+  health.share_frame("blade", "/other/simulator");
+  EXPECT_FALSE(health.take_news());
+  Status status;
+  health.fill_commands(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_NE(status.message.find("the node /other/simulator publishes the tf frame 'blade' too"), std::string::npos);
+}
+
 TEST(CommandHealth, WarnsOfAJumpForAWhileAndCountsIt) {
   NodeHealth health;
   health.jump("'probe' jumps");

@@ -237,6 +237,28 @@ TEST(Mailbox, ClosingLetsCallersGo) {
   EXPECT_FALSE(mailbox.call([] {}));
 }
 
+// While a scene is built nobody waits for its end; what takes less than kBusyPatience is waited for. Cost: 1 s of
+// waiting.
+TEST(Mailbox, CallersAreLetGoWhileItIsBusyForLong) {
+  Mailbox mailbox;
+  bool done = true, short_done = false;
+  std::thread before([&] { done = mailbox.call([] {}, Mailbox::Turn::at_once); });
+  while (!mailbox.urgent()) std::this_thread::yield();
+  mailbox.set_busy(true);
+  before.join();
+  EXPECT_FALSE(done);
+  EXPECT_FALSE(mailbox.urgent());
+  EXPECT_FALSE(mailbox.call([] {}));  // at once, since it has been busy for long
+  EXPECT_FALSE(mailbox.closed());
+  mailbox.set_busy(true);
+  std::thread caller([&] { short_done = mailbox.call([] {}, Mailbox::Turn::at_once); });
+  while (!mailbox.urgent()) std::this_thread::yield();
+  mailbox.set_busy(false);
+  mailbox.run_until(std::chrono::steady_clock::now() + milliseconds(10));
+  caller.join();
+  EXPECT_TRUE(short_done);
+}
+
 TEST(Mailbox, AnErrorComesOutAndTheCallerIsLetGo) {
   Mailbox mailbox;
   std::thread caller([&] { mailbox.call([] { throw std::runtime_error("work"); }); });

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "mpm_ros/message/bag_damage.hpp"
 #include "mpm_ros/report/report.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "report_run.hpp"
@@ -97,6 +98,30 @@ TEST_F(ReportBadInput, WithoutBodies) {
   HalfSineRun run;
   run.on_bodies = [](int, BodyStates&) { return false; };
   EXPECT_TRUE(contains(error_of(bag_of(run)), "no topic /mpm/bodies"));
+}
+
+// Lengths and places that are not those of what is there: rosbag reads from, or asks for memory, as they say. The
+// offset in an index ended the program with SIGSEGV.
+TEST_F(ReportBadInput, LengthsAndPlacesThatAreWrong) {
+  const std::string whole = bag_of(HalfSineRun());
+  ASSERT_EQ(bag_damage(whole), "");
+  std::ifstream file(whole, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const auto op = [&](char code) { return bytes.find(std::string("\x04\0\0\0op=", 7) + code); };
+  constexpr std::size_t kOpField = 8, kVersionField = 12, kTime = 8;
+  const std::size_t index = op(4) + kOpField + kVersionField;  // behind it the length of its data, its entries
+  const std::pair<std::size_t, const char*> places[] = {
+      {13, "longer than what it lies in"},       // the first record's header
+      {index, "longer than what it lies in"},    // the data of an index
+      {index + 4 + kTime, "where none begins"},  // the message that it names
+  };
+  for (const auto& [at, text] : places) {
+    std::string damaged = bytes;
+    damaged.replace(at, 4, "\xff\xff\xff\x7f");
+    std::ofstream(in_folder("damaged.bag"), std::ios::binary) << damaged;
+    const std::string error = error_of(in_folder("damaged.bag"));
+    EXPECT_TRUE(contains(error, "damaged: the record at byte") && contains(error, text)) << at << ": " << error;
+  }
 }
 
 TEST_F(ReportBadInput, MessagesOfAnotherVersion) {

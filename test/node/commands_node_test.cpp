@@ -79,10 +79,35 @@ TEST(Commands, RandomOnesAreRefusedOrAppliedAndCounted) {
   EXPECT_EQ(response.bodies.bodies[0].drive, BodyState::FUNCTIONS);
   EXPECT_EQ(response.bodies.bodies[1].drive, BodyState::VELOCITY);
 
+  const Step::Response many = simulator.step(1, std::vector<mpm_ros::Command>(10'001, velocity("rod", 0.0)));
+  EXPECT_FALSE(many.success);
+  EXPECT_NE(many.message.find("10001 commands, and a step takes 10000 at most"), std::string::npos) << many.message;
+
+  // In its own axes, which a turn of 90 deg about y has put across the world's: its x is down, and turns on with it.
+  ros::Publisher own = connect<geometry_msgs::Twist>(simulator.name("bodies/rod/cmd_vel_body"));
+  mpm_ros::Command turned;
+  turned.body = "rod";
+  turned.kind = mpm_ros::Command::POSE;
+  turned.pose = response.bodies.bodies[1].pose;
+  turned.pose.orientation.w = turned.pose.orientation.y = std::sqrt(0.5);
+  ASSERT_TRUE(simulator.step(1, {turned}).success);
+  geometry_msgs::Twist ahead;
+  ahead.linear.x = 1e-3;
+  ahead.angular.y = 1.0;
+  own.publish(ahead);
+  Step::Request after;
+  after.count = 1;
+  after.after_received = many.received + 1;
+  Step::Response driven = simulator.step(after);
+  EXPECT_NEAR(driven.bodies.bodies[1].twist.linear.z, -1e-3, 1e-12);
+  driven = simulator.step(1);  // 0.01 rad farther on
+  EXPECT_NEAR(driven.bodies.bodies[1].twist.linear.x, -1e-3 * std::sin(0.01), 1e-12);
+
   simulator.signal(SIGINT);
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
   rosbag::Bag recorded(bag);
-  EXPECT_EQ(rosbag::View(recorded, rosbag::TypeQuery("mpm_ros/Command")).size(), static_cast<std::uint32_t>(kEach));
+  EXPECT_EQ(rosbag::View(recorded, rosbag::TypeQuery("mpm_ros/Command")).size(),
+            static_cast<std::uint32_t>(kEach) + 3U);
 }
 
 TEST(Commands, AWrenchPushesAFreeBodyUntilTheNext) {

@@ -2,8 +2,11 @@
 // effect of silence, and the replay of the bag. The scene's sync points are 2 ms apart; its sled is limited to 0.4 m/s
 // and 20 m/s^2, which is 0.04 m/s a sync period.
 #include <mpm_ros/BodyStates.h>
+#include <mpm_ros/RunInfo.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <fstream>
 #include <set>
 
 #include "simulator_process.hpp"
@@ -176,6 +179,50 @@ TEST_F(Drive, AJumpIsTold) {
   // The link is 4 cells from the body's initial pose: the body moves there in one period, and this is reported.
   send(simulator, way("hand", 0.12, 0.08, 0.15), kHand);
   EXPECT_TRUE(diagnosed(diagnostics_, simulator, "'hand' jumps")) << simulator.log();
+}
+
+// A body whose scene has no pose begins where its frame is, which the node waits for, at the start and at a reset.
+TEST_F(Drive, WithoutAPoseABodyBeginsWhereItsFrameIs) {
+  const TemporaryFolder folder;
+  std::ifstream given(data_file("drive.yaml"));
+  std::ofstream scene(folder.file("drive.yaml"));
+  for (std::string line; std::getline(given, line);) {
+    if (line.find("pose: {position: [0.1, 0.06]}") == std::string::npos) scene << line << "\n";
+  }
+  scene.close();
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator(
+      {"scene:=" + folder.file("drive.yaml"), "pacing:=lockstep", "threads:=1", "record:=" + bag});
+  ASSERT_TRUE(eventually([&] {
+    return simulator.log().find("waits for the tf frame 'arm/tool0' in 'world', where 'probe' begins") !=
+           std::string::npos;
+  })) << simulator.log();
+  EXPECT_FALSE(ros::service::exists(simulator.name("step"), false));
+  ASSERT_TRUE(eventually([&] { return tf_.getNumSubscribers() > 0; })) << simulator.log();
+  ASSERT_TRUE(eventually([&] {
+    tf_.publish(way("arm/tool0", 0.12, 0.07, 1e-9));
+    return ros::service::exists(simulator.name("step"), false);
+  })) << simulator.log();
+  const geometry_msgs::Point at = place(simulator.step(1), kProbe);
+  EXPECT_NEAR(at.x, 0.12 + 0.05e-9, kRound);
+  EXPECT_NEAR(at.z, 0.07, kRound);
+  EXPECT_EQ(simulator.log().find("jumps"), std::string::npos) << simulator.log();
+
+  // It follows its frame, and a reset begins where that is by then.
+  const double there = 0.14 + 0.05 * 0.01;
+  ASSERT_TRUE(eventually([&] {
+    tf_.publish(way("arm/tool0", 0.14, 0.07, 0.01));
+    return std::abs(place(simulator.step(1), kProbe).x - there) < kRound;
+  })) << simulator.log();
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(simulator.call("reset", reset));
+  EXPECT_TRUE(reset.response.success) << reset.response.message;
+  EXPECT_NEAR(place(simulator.step(1), kProbe).x, there, kRound);
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  rosbag::Bag recorded(bag);
+  rosbag::View infos(recorded, rosbag::TypeQuery("mpm_ros/RunInfo"));
+  EXPECT_NE(infos.begin()->instantiate<RunInfo>()->scene_text.find("0.12"), std::string::npos);
 }
 
 }  // namespace drive_node_test

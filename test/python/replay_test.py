@@ -73,7 +73,7 @@ class Pictures(unittest.TestCase):
                                                               "force_markers", "crack_markers")})
                 with open(self.path("words"), encoding="utf-8") as file:
                     # A node of the same name as `watch` would end it, and with it RViz.
-                    self.assertNotIn("__name:=", file.read())
+                    self.assertIn("__name:=watch_rviz", file.read())
                 launch.end()
 
     def test_watch_waits_for_a_run_that_stands_still_and_says_so(self):

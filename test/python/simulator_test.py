@@ -39,6 +39,9 @@ class Stepping(unittest.TestCase):
             self.assertGreaterEqual(obs["plate"].peak_force[2], obs["plate"].force[2])
             self.assertFalse(obs.ended)
             self.assertAlmostEqual(sim.step(velocity={"plate": (0, 0, 0)}).time, 0.02 + SYNC, delta=1e-12)
+            turned = 2.0 * (0.02 + SYNC)  # [rad] about y: where its own x is
+            obs = sim.step(velocity_body={"rod": (0.1, 0, 0)})
+            np.testing.assert_allclose(obs["rod"].velocity, [0.1 * np.cos(turned), 0, -0.1 * np.sin(turned)], atol=1e-12)
             self.assertTrue(sim.step(1.0).ended)  # at 0.2 s
             with self.assertRaisesRegex(mpm_ros.MpmError, "call reset"):
                 sim.step()

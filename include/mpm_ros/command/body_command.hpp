@@ -46,7 +46,8 @@ struct AppliedCommand {
   std::int64_t effect = 0;   ///< [ns] simulated time at which it takes effect
   std::int64_t arrival = 0;  ///< [ns] pose: when it is reached
   ros::Time requested;
-  bool stamp_ignored = false;  ///< it has a stamp, `requested`, which was not used
+  bool stamp_ignored = false;     ///< it has a stamp, `requested`, which was not used
+  std::optional<mpm::Twist> own;  ///< velocity that was given in the axes of the body itself: in these
 };
 
 /// Gives the command to the simulation, whose time() is the command's effect. @throws mpm::RigidError, then nothing is

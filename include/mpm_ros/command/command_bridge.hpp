@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mpm_ros/command/command_reader.hpp"
+#include "mpm_ros/command/dropped_messages.hpp"
 #include "mpm_ros/command/frame_follower.hpp"
 
 namespace mpm_ros {
@@ -36,10 +37,20 @@ class CommandBridge {
 
   /// Asks the master for command topics of bodies that the scene does not have, and refuses each once.
   void find_strangers();
+  /// Asks roscpp what it has dropped: for the two below.
+  void find_dropped();
+  /// Commands, and messages of tf, that came faster than they were taken, and had no effect.
+  std::uint64_t dropped_commands() const { return dropped_commands_.count(); }
+  std::uint64_t dropped_transforms() const { return dropped_transforms_.count(); }
 
  private:
   template <typename Message>
   void subscribe(ros::NodeHandle& node, int body, const char* leaf);
+  /// `take`: gets (body, message, sender).
+  template <typename Message, typename Taking>
+  void subscribe(ros::NodeHandle& node, int body, const char* leaf, Taking take);
+  /// Whether commands are heard on the topic.
+  bool commanded_on(const std::string& topic) const;
   void listen(ros::NodeHandle& node, const char* topic, bool fixed);
   void hear(const tf2_msgs::TFMessage& message, const std::string& sender, bool fixed);
 
@@ -50,7 +61,9 @@ class CommandBridge {
   CommandReader reader_;
   FrameFollower follower_;
   std::vector<ros::Subscriber> subscribers_;
+  std::set<std::string> own_frames_;  // that the node publishes
   std::set<std::string> strangers_;
+  DroppedMessages dropped_commands_, dropped_transforms_;
 };
 
 }  // namespace mpm_ros

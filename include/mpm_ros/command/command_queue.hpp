@@ -14,10 +14,11 @@
 //
 // A body holds a bounded number of commands whose stamps are to come; more are refused. Commands without such a stamp
 // are never refused, for one of them may be a stop: where too many wait, as in a pause, the oldest of the same body,
-// kind and sender makes room.
+// kind and sender makes room, and is counted.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -61,6 +62,8 @@ class CommandQueue {
   /// Commands that came on a stamped topic with a stamp of zero, and with one that was past.
   LateCommands late() const;
   std::size_t waiting() const;
+  /// Commands that made room for later ones, and had no effect.
+  std::uint64_t dropped() const;
   /// The last sync point taken [ns]; -1 before the first.
   std::int64_t passed() const;
 
@@ -98,13 +101,13 @@ class CommandQueue {
   std::int64_t round_up(std::int64_t time) const { return (time + sync_period_ - 1) / sync_period_ * sync_period_; }
   bool is_due(const BodyCommand& command, std::int64_t now) const;
   /// Moves what cannot be due at `now` to the end of waiting_, in any order. Returns where it begins.
-  std::vector<BodyCommand>::iterator part_later(std::int64_t now);
+  std::deque<BodyCommand>::iterator part_later(std::int64_t now);
   std::int64_t arrival_of(const BodyCommand& command, std::int64_t now);
 
   std::int64_t sync_period_;
   mutable std::mutex mutex_;
-  std::vector<BodyCommand> waiting_;
-  std::vector<BodyCommand> outside_;  ///< came while on hold
+  std::deque<BodyCommand> waiting_;
+  std::deque<BodyCommand> outside_;  ///< came while on hold
   bool on_hold_ = false;
   std::map<int, std::size_t> ahead_;    ///< of both, those whose stamp is to come, by body
   std::map<Stream, std::size_t> next_;  ///< of both, the others
@@ -112,6 +115,7 @@ class CommandQueue {
   std::int64_t passed_ = -1;  ///< last sync point taken [ns]
   std::uint64_t arrivals_ = 0;
   LateCommands late_;
+  std::uint64_t dropped_ = 0;
 };
 
 }  // namespace mpm_ros

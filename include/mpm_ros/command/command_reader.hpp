@@ -9,11 +9,14 @@
 #include <mpm_ros/Command.h>
 #include <tf2/buffer_core.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "mpm/simulation/report.hpp"
@@ -48,11 +51,15 @@ class CommandReader {
   /// A message for a body (its index) from a node: to the queue, or refused. Any thread.
   void take(int body, const geometry_msgs::Twist& message, const std::string& sender = {});
   void take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender = {});
+  /// A twist in the body's own axes.
+  void take_own(int body, const geometry_msgs::Twist& message, const std::string& sender = {});
   void take(int body, const geometry_msgs::Wrench& message, const std::string& sender = {});
   void take(int body, const geometry_msgs::WrenchStamped& message, const std::string& sender = {});
   void take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender = {});
   /// Messages taken so far, those that were refused too.
   std::uint64_t received() const;
+  /// Messages with a header that were sent and did not come, by the gaps in the numbers that each sender gives them.
+  std::uint64_t missing() const;
   /// Waits until so many have been taken, for `patience` of the wall's time at most. Any thread but those of take().
   bool wait_received(std::uint64_t count, std::chrono::milliseconds patience) const;
   /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
@@ -73,6 +80,7 @@ class CommandReader {
   /// Why a simulated time [ns] cannot be meant, or empty.
   std::string too_far_ahead(std::int64_t stamp) const;
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
+  void count_missing(int body, const char* leaf, const std::string& sender, const std_msgs::Header& header);
   /// Why the body takes no commands, or empty.
   std::string refusal_of(int body) const;
   /// Pose of a frame in the world, or the body whose frame it is.
@@ -93,6 +101,8 @@ class CommandReader {
   mutable std::mutex received_mutex_;
   mutable std::condition_variable received_changed_;
   std::uint64_t received_ = 0;
+  std::map<std::tuple<int, std::string, std::string>, std::uint32_t> last_seq_;  // by body, topic and sender
+  std::atomic<std::uint64_t> missing_{0};
 };
 
 /// A due command in world axes; `bodies` as they are at its effect [ns].

@@ -12,6 +12,7 @@
 #include <ros/time.h>
 #include <tf2/buffer_core.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,10 @@
 #include "mpm_ros/message/node_health.hpp"
 
 namespace mpm_ros {
+
+/// The latest pose of a frame in the world's; none, with the reason, where tf does not know it, or knows no pose.
+std::optional<mpm::Pose> frame_pose(const tf2::BufferCore& transforms, const std::string& world_frame,
+                                    const std::string& frame, std::string& problem);
 
 class FrameFollower {
  public:
@@ -32,6 +37,8 @@ class FrameFollower {
   /// How far the newest transform of a frame is stamped ahead of `next` [s], and the frame; 0 s: of none, or with
   /// `latest`.
   std::pair<double, std::string> farthest_ahead(const ros::Time& next) const;
+  /// Where the frame of a body is at present; none where that is not known.
+  std::optional<mpm::Pose> latest_pose(int body) const;
   /// For a run that begins again.
   void clear();
 

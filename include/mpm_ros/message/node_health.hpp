@@ -2,10 +2,10 @@
 //
 // solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
 // is nearly crushed, particles left the grid and were put back, or the wall clock is not kept up with; else OK.
-// commands: WARN for ten seconds after one was refused or made a body jump, and as long as a body that was commanded
-// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits, and
-// as long as the simulation is behind the clock by which commands are stamped; else
-// OK. A late command is normal latency: counted, no warning.
+// commands: WARN for ten seconds after one was refused, was dropped or made a body jump; as long as a body that was
+// commanded hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its
+// limits; as long as the simulation is behind the clock by which commands are stamped; and once a tf frame of a body
+// has had another owner, too; else OK. A late command is normal latency: counted, no warning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -42,11 +42,14 @@ struct SolverHealth {
 
 /// Commands that were taken, for the status `commands`.
 struct CommandHealth {
-  std::uint64_t unstamped = 0;     ///< on stamped topics, with stamp zero: applied at the next sync point
-  std::uint64_t past = 0;          ///< with a stamp that was past: the same
-  std::uint64_t waiting = 0;       ///< whose time is to come
-  std::uint64_t most_waiting = 0;  ///< of a body; more with stamps to come are refused
-  double horizon = 0.0;            ///< [s] ahead of the simulation; stamps beyond are refused
+  std::uint64_t unstamped = 0;           ///< on stamped topics, with stamp zero: applied at the next sync point
+  std::uint64_t past = 0;                ///< with a stamp that was past: the same
+  std::uint64_t waiting = 0;             ///< whose time is to come
+  std::uint64_t most_waiting = 0;        ///< of a body; more with stamps to come are refused
+  double horizon = 0.0;                  ///< [s] ahead of the simulation; stamps beyond are refused
+  std::uint64_t dropped = 0;             ///< that more came than could be kept: without effect
+  std::uint64_t missing = 0;             ///< that did not come, by the gaps in header.seq
+  std::uint64_t transforms_dropped = 0;  ///< messages of tf
 };
 
 /// How a body is kept within its limits.
@@ -77,6 +80,8 @@ class NodeHealth {
   /// The simulation is behind the clock by which it is commanded; warns until `what` is empty. One log line, and again
   /// every ten seconds.
   void lag(const std::string& what);
+  /// A tf frame that the node publishes is published by another one, too. Warns from then on. One log line each.
+  void share_frame(const std::string& frame, const std::string& node);
   /// A body with limits moves. Warns while it is behind; one log line when its first command was limited.
   void limit(const std::string& body, const LimitHealth& limits);
   void set_solver(const SolverHealth& solver);
@@ -122,6 +127,8 @@ class NodeHealth {
   std::uint64_t jumps_ = 0;
   std::string last_jump_;
   std::string last_change_;
+  std::map<std::string, std::string> shared_frames_;  // and who publishes them, too
+  Clock::time_point dropped_at_, drop_logged_;
   std::string lag_;
   Clock::time_point lag_logged_;
   std::map<std::string, Clock::time_point> logged_;  // lines of refusals

@@ -29,6 +29,10 @@ const std::vector<StateQuantity>& state_quantities();
 /// (mpm::EnergyReport::balance()). Absent where the run does not count all that takes energy.
 inline constexpr char kBalance[] = "balance";
 
+/// Name among SolverState::values: commands that came faster than the node took them, and had no effect. Absent where
+/// there are none.
+inline constexpr char kCommandsDropped[] = "commands dropped";
+
 /// An energy of the state [J], or work done.
 struct EnergyFigure {
   std::string key;      ///< in JSON

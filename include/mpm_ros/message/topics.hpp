@@ -1,6 +1,7 @@
 // Names of topics and services, relative to the node's namespace unless they begin with a slash.
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace mpm_ros::topics {
@@ -35,8 +36,13 @@ constexpr const char* kWrench = "wrench";
 constexpr const char* kWrenchFiltered = "wrench_filtered";
 constexpr const char* kCmdVel = "cmd_vel";
 constexpr const char* kCmdVelStamped = "cmd_vel_stamped";
+constexpr const char* kCmdVelBody = "cmd_vel_body";
 constexpr const char* kCmdWrench = "cmd_wrench";
 constexpr const char* kCmdWrenchStamped = "cmd_wrench_stamped";
 constexpr const char* kCmdPose = "cmd_pose";
+
+/// What comes after the body's name on the topics of its commands.
+constexpr std::array<const char*, 6> kCommandLeaves{kCmdVel,    kCmdVelStamped,    kCmdVelBody,
+                                                    kCmdWrench, kCmdWrenchStamped, kCmdPose};
 
 }  // namespace mpm_ros::topics

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/command/turning_twists.hpp"
 #include "mpm_ros/message/node_health.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
 #include "mpm_ros/run/run.hpp"
@@ -36,6 +38,7 @@ struct CommandMemory {
   CommandQueue queue;
   CommandWatch watch;
   CommandLimiter limiter;
+  TurningTwists turning;
   void serialise(mpm::StateArchive& archive);
 };
 
@@ -81,13 +84,23 @@ class BodyCommands {
   /// Those that came late so far.
   LateCommands late() const { return memory_.queue.late(); }
   std::size_t waiting() const { return memory_.queue.waiting(); }
+  /// Those that more came than could be kept, and had no effect, as of the last housekeeping.
+  std::uint64_t dropped() const { return memory_.queue.dropped() + (replays() ? 0 : bridge_->dropped_commands()); }
+  std::uint64_t dropped_transforms() const { return replays() ? 0 : bridge_->dropped_transforms(); }
+  /// Those that did not come, by the numbers of their senders.
+  std::uint64_t missing() const { return replays() ? 0 : bridge_->reader().missing(); }
+  /// Where the tf frame of a body is at present; none where it follows none, or tf does not know.
+  std::optional<mpm::Pose> frame_pose(int body) const {
+    return replays() ? std::nullopt : bridge_->follower().latest_pose(body);
+  }
   /// The clock was set back: moving tf frames are forgotten.
   void forget_frames();
-  /// Refuses topics of bodies that the scene does not have. Any thread.
-  void find_strangers();
+  /// Refuses topics of bodies that the scene does not have, and counts what was dropped. Any thread.
+  void keep_house();
 
  private:
   std::string apply(Run& run, const AppliedCommand& command);
+  void turn(Run& run);
   void apply_limited(Run& run);
   std::string act_on_silence(Run& run);
   void look_at_lag(const Run& run);

@@ -1,9 +1,11 @@
-// Ends the process where roscpp does not: with a master that is gone, or hangs, its calls wait without a limit, and
-// neither a signal nor ros::shutdown() ends them.
+// Ends the process where it does not hear a stop itself: while roscpp waits, without a limit, for a master that is gone
+// or hangs, and while a scene is read and built.
 #pragma once
 
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <mutex>
 
 namespace mpm_ros {
 
@@ -19,13 +21,29 @@ class ExitWatchdog {
   /// The record is closed, and the node ends: the process ends with this exit code, whatever roscpp waits for.
   void ends(int exit_code);
 
+  /// While one exists, its thread may be deaf to a stop for long, as when a scene is built beside a run whose record is
+  /// open. A stop then ends the process after 0.9 s all the same: `close`, called by the watchdog's thread, closes the
+  /// record, and returns the exit code. The thread that made it does not come past its end any more.
+  class Deaf {
+   public:
+    Deaf(ExitWatchdog& watchdog, std::function<int()> close);
+    ~Deaf();
+    Deaf(const Deaf&) = delete;
+    Deaf& operator=(const Deaf&) = delete;
+
+   private:
+    ExitWatchdog& watchdog_;
+  };
+
  private:
-  [[noreturn]] void watch() const;
+  [[noreturn]] void watch();
 
   const std::chrono::milliseconds patience_;
   std::atomic<int> exit_code_{0};
   std::atomic<bool> may_end_{true};
   std::atomic<bool> ends_{false};
+  std::mutex mutex_;  ///< of close_
+  std::function<int()> close_;
 };
 
 }  // namespace mpm_ros

@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 
 namespace mpm_ros {
 
@@ -15,14 +16,18 @@ class Mailbox {
  public:
   /// Whose turn it is when several wait; at_once: first, and work that takes long ends for it.
   enum class Turn { last, first, at_once };
-  /// Hands over `work` and waits until it is done. False, with the work not done, once closed. Not from the thread
-  /// that calls run_until().
+  /// Hands over `work` and waits until it is done. False, with the work not done, once closed, or where the solver's
+  /// thread has been busy for kBusyPatience. Not from the thread that calls run_until().
   bool call(const std::function<void()>& work, Turn turn = Turn::last);
   /// Does what has been handed over; waits for more until `deadline`, or until some work was done.
   /// What the work throws comes out here; the caller is let go.
   void run_until(std::chrono::steady_clock::time_point deadline);
   /// Lets every waiting caller go.
   void close();
+  bool closed() const;
+  /// The solver's thread begins, or ends, work that takes nobody knows how long: callers do not wait for its end.
+  void set_busy(bool busy);
+  static constexpr std::chrono::milliseconds kBusyPatience{1000};
   /// Whether some work waits that others end for. Any thread; true from the moment in which run_until() would find it.
   bool urgent() const { return urgent_ > 0; }
 
@@ -32,10 +37,11 @@ class Mailbox {
     Turn turn;
     bool done = false;
   };
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Letter*> letters_;
   bool closed_ = false;
+  std::optional<std::chrono::steady_clock::time_point> busy_since_;
   std::atomic<int> urgent_{0};  // of letters_, those of Turn::at_once
 };
 

@@ -2,23 +2,15 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <xmlrpcpp/XmlRpcValue.h>
 
-#include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "mpm/math/geometry.hpp"
+#include "mpm_ros/node/parameter_reader.hpp"
 
 namespace mpm_ros {
-
-/// A parameter that is missing, of the wrong type or out of range. what() is one line that names it.
-class ParameterError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 enum class Pacing {
   real_time,  ///< simulated time follows the wall clock, times real_time_factor
@@ -83,8 +75,6 @@ struct NodeParameters {
 
   std::string text;  ///< what was given, as YAML
 };
-
-using ParameterValues = std::map<std::string, XmlRpc::XmlRpcValue>;
 
 /// All parameters below a private node handle.
 ParameterValues fetch_parameters(const ros::NodeHandle& private_node);

@@ -16,6 +16,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/message/node_health.hpp"
 #include "mpm_ros/node/body_commands.hpp"
+#include "mpm_ros/node/exit_watchdog.hpp"
+#include "mpm_ros/node/frame_poses.hpp"
 #include "mpm_ros/node/height_maps.hpp"
 #include "mpm_ros/node/mailbox.hpp"
 #include "mpm_ros/node/node_diagnostics.hpp"
@@ -39,9 +42,13 @@ namespace mpm_ros {
 class SimulatorNode {
  public:
   /// Loads the scene, once the messages are there from which it takes heights, and makes the first run ready.
+  /// `watchdog`, which must outlive it, ends the process when a stop comes while a reset builds a scene.
   /// @throws mpm::Error, ParameterError, BagError: bad input, exit code 2. @throws mpm::StoppedError
-  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters);
+  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, ExitWatchdog& watchdog);
   ~SimulatorNode();
+  /// Looks whether another node does what this one would do too: warns of a second clock.
+  /// @throws ParameterError where one offers its services
+  static void check_neighbours(const ros::NodeHandle& node, const NodeParameters& parameters);
 
   /// Runs until the scene ends or the run fails; with keep_alive it then waits for a reset, a checkpoint to load, or a
   /// stop (stop_signals.hpp, or a shutdown of ROS). Returns the exit code, with keep_alive that of the last run: 0
@@ -68,10 +75,10 @@ class SimulatorNode {
   std::shared_ptr<const Subject> checked(Subject loaded) const;
   /// That of the present run, with what was chosen for its target in the checkpoint's.
   /// @throws mpm::Error, ParameterError
-  std::shared_ptr<const Subject> subject_of(const std::string& checkpoint) const;
+  std::shared_ptr<const Subject> subject_of(const std::string& checkpoint);
   /// The scene with `set` over what ~set says; with the choice of the present run for a target where it is the same
   /// scene, else with one that is made now. @throws mpm::Error, ParameterError
-  std::shared_ptr<const Subject> load_subject(const std::vector<std::string>& set) const;
+  std::shared_ptr<const Subject> load_subject(const std::vector<std::string>& set);
   /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
   void start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps, const std::string& resume = {});
   /// Says what runs, at what pace it is expected to, and what the node waits for.
@@ -87,6 +94,13 @@ class SimulatorNode {
   bool sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal);
   void fail(const std::string& reason, int exit_code);
   void end_run();
+  /// With which the node ends, as things are.
+  int exit_code() const;
+  /// A scene is read or built beside the run that is there, which may take long: while it exists, services are refused
+  /// after a while, and a stop ends the run, and the process.
+  class Building;
+  /// Has `work` done by the solver's thread and waits for it. False, with the reason in `message`, when it is not done.
+  bool hand_over(const std::function<void()>& work, std::string& message, Mailbox::Turn turn = Mailbox::Turn::last);
   void say_closed() const;
   void count_commands();
   void publish_clock(bool always) { clock_.publish(run_->simulation().time(), run_->stamps(), always); }
@@ -124,7 +138,9 @@ class SimulatorNode {
 
   ros::NodeHandle node_;
   const NodeParameters parameters_;
+  ExitWatchdog& watchdog_;
   const HeightMaps heights_;                // with the overrides of the scene
+  FramePoses poses_;                        // of the present run
   std::shared_ptr<const Subject> subject_;  // of the present run
   NodeHealth health_;
   Mailbox mailbox_;

@@ -65,9 +65,10 @@ class Run {
   void finish();
   /// The same for the state that a PhysicsError left behind; the last solver state says why, in one line.
   void fail(const std::string& reason);
-  /// Commands that were late and refused so far, for the solver states.
-  void count_commands(std::uint64_t late, std::uint64_t refused) { outputs_.count_commands(late, refused); }
-
+  /// Commands that were late, refused and dropped so far, for the solver states.
+  void count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped) {
+    outputs_.count_commands(late, refused, dropped);
+  }
   /// Sync periods that came too late so far, for the same.
   void count_overruns(std::uint64_t overruns) { outputs_.count_overruns(overruns); }
 
@@ -122,6 +123,11 @@ class Run {
   };
   std::vector<ToldOfTip> told_of_tips_;
   std::vector<std::string> warnings_;
+  struct Jump {
+    std::string what;  ///< as jump_of() says it
+    std::int64_t arrival = 0;
+  };
+  Jump jump_;  ///< the last one that was commanded
   bool resumed_ = false;
   bool cut_short_ = false;  // stopped between two sync points
   bool closed_ = false;

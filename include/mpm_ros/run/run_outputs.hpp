@@ -75,7 +75,7 @@ class RunOutputs {
   /// go on, one line; then the state of the failure is written whole, and marked. Empty: the run was stopped.
   void finish(double real_time_factor, const std::string& failure = {});
   /// For the solver states from now on.
-  void count_commands(std::uint64_t late, std::uint64_t refused);
+  void count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped);
   void count_overruns(std::uint64_t overruns) { overruns_ = overruns; }
 
   /// The solver state as it was written last.
@@ -140,6 +140,7 @@ class RunOutputs {
   std::uint64_t applied_ = 0;  // commands
   std::uint64_t late_ = 0;
   std::uint64_t refused_ = 0;
+  std::uint64_t dropped_ = 0;
   std::uint64_t overruns_ = 0;
   std::int64_t particles_at_ = -1;  // [ns] when they were written last
   bool global_kept_ = false;        // its means go on from a checkpoint

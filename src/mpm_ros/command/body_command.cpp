@@ -87,11 +87,15 @@ std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simula
   const double cell = simulation.definition().grid.cell.minCoeff(), travel = travel_of(command, simulation);
   if (!(travel > cell)) return {};
   const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
+  const mpm::RigidBody& body = simulation.rigid_body(command.body);
+  const mpm::Vec3 &from = body.pose().position, &to = command.pose.position;
   return fmt::format(
-      "'{}' jumps: the pose it is to reach by {:.6f} s asks for {:.3g} m/s, {:.3g} cells in a sync "
-      "period; give it limits in the scene, or begin where it stands",
-      simulation.rigid_body(command.body).name(), static_cast<double>(command.arrival) * 1e-9, travel / sync,
-      travel / cell);
+      "'{}' jumps {:.3g} cells, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m: the pose it is to reach "
+      "by "
+      "{:.6f} s asks for {:.3g} m/s, {:.3g} cells in a sync period; give it limits in the scene, or begin where it "
+      "stands",
+      body.name(), (to - from).norm() / cell, from.x(), from.y(), from.z(), to.x(), to.y(), to.z(),
+      static_cast<double>(command.arrival) * 1e-9, travel / sync, travel / cell);
 }
 
 void apply(const AppliedCommand& command, mpm::Simulation& simulation) {

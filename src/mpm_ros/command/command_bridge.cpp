@@ -5,6 +5,7 @@
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "mpm/math/nearest.hpp"
@@ -14,7 +15,8 @@ namespace mpm_ros {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;
+/// Messages of a topic that wait for the thread that takes them: three seconds of 3,000 a second.
+constexpr std::uint32_t kQueue = 10'000;
 
 }  // namespace
 
@@ -24,14 +26,22 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
     : prefix_(node.resolveName(topics::kBodies) + "/"),
       health_(health),
       reader_(bodies, world_frame, prefix_, frames_, queue, health),
-      follower_(frames, world_frame, frames_, reader_, health, latest_frames) {
+      follower_(frames, world_frame, frames_, reader_, health, latest_frames),
+      dropped_commands_([this](const std::string& topic) { return commanded_on(topic); }),
+      dropped_transforms_([tf = node.resolveName("/tf")](const std::string& topic) { return topic == tf; }) {
   if (latest_commands) reader_.ignore_stamps();
+  own_frames_.insert(bodies.begin(), bodies.end());
+  for (const std::string& frame : frames) own_frames_.erase(frame);
   listen(node, "/tf", false);
   listen(node, "/tf_static", true);
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
     reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);
     subscribe<geometry_msgs::TwistStamped>(node, body, topics::kCmdVelStamped);
+    subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVelBody,
+                                    [this](int to, const geometry_msgs::Twist& message, const std::string& sender) {
+                                      reader_.take_own(to, message, sender);
+                                    });
     subscribe<geometry_msgs::Wrench>(node, body, topics::kCmdWrench);
     subscribe<geometry_msgs::WrenchStamped>(node, body, topics::kCmdWrenchStamped);
     subscribe<geometry_msgs::PoseStamped>(node, body, topics::kCmdPose);
@@ -40,14 +50,32 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
 
 template <typename Message>
 void CommandBridge::subscribe(ros::NodeHandle& node, int body, const char* leaf) {
+  subscribe<Message>(node, body, leaf, [this](int to, const Message& message, const std::string& sender) {
+    reader_.take(to, message, sender);
+  });
+}
+
+template <typename Message, typename Taking>
+void CommandBridge::subscribe(ros::NodeHandle& node, int body, const char* leaf, Taking take) {
   // The full callback: it tells who sent the message.
   using Event = const ros::MessageEvent<const Message>&;
   ros::SubscribeOptions options;
   options.initByFullCallbackType<Event>(
       topics::of_body(reader_.bodies()[body], leaf), kQueue,
-      [this, body](Event event) { reader_.take(body, *event.getConstMessage(), event.getPublisherName()); });
+      [body, take](Event event) { take(body, *event.getConstMessage(), event.getPublisherName()); });
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   subscribers_.push_back(node.subscribe(options));
+}
+
+bool CommandBridge::commanded_on(const std::string& topic) const {
+  if (topic.compare(0, prefix_.size(), prefix_) != 0) return false;
+  const auto& leaves = topics::kCommandLeaves;
+  return std::find(leaves.begin(), leaves.end(), topic.substr(topic.rfind('/') + 1)) != leaves.end();
+}
+
+void CommandBridge::find_dropped() {
+  dropped_commands_.look();
+  dropped_transforms_.look();
 }
 
 void CommandBridge::listen(ros::NodeHandle& node, const char* topic, bool fixed) {
@@ -65,6 +93,8 @@ void CommandBridge::hear(const tf2_msgs::TFMessage& message, const std::string& 
   if (now < heard_) frames_.clear();
   heard_ = now;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    if (own_frames_.count(transform.child_frame_id) > 0 && sender != ros::this_node::getName())
+      health_.share_frame(transform.child_frame_id, sender);
     try {
       frames_.setTransform(transform, sender, fixed);
     } catch (const std::runtime_error& error) {
@@ -81,12 +111,8 @@ void CommandBridge::find_strangers() {
   if (!ros::master::execute("getPublishedTopics", request, response, published, false)) return;
   for (int i = 0; i < published.size(); ++i) {
     const std::string topic = published[i][0];
-    if (topic.compare(0, prefix_.size(), prefix_) != 0) continue;
+    if (!commanded_on(topic)) continue;
     const std::size_t slash = topic.rfind('/');
-    const std::string leaf = topic.substr(slash + 1);
-    if (leaf != topics::kCmdVel && leaf != topics::kCmdVelStamped && leaf != topics::kCmdPose &&
-        leaf != topics::kCmdWrench && leaf != topics::kCmdWrenchStamped)
-      continue;
     const std::string body = slash < prefix_.size() ? "" : topic.substr(prefix_.size(), slash - prefix_.size());
     if (reader_.find_body(body) >= 0 || !strangers_.insert(topic).second) continue;
     health_.refuse(fmt::format("commands on {}: there is no rigid body '{}'; {}", topic, body,

@@ -4,9 +4,12 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "mpm/math/input_file.hpp"
+#include "mpm_ros/message/bag_damage.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 
@@ -46,14 +49,22 @@ CommandLog read_commands(const std::string& bag_path) {
     for (const std::string& part : parts_of(bag_path)) {
       if (const std::string refused = mpm::refused_input(part); !refused.empty())
         throw BagError(fmt::format("bag {}: {}", part, refused));
+      if (const std::string damage = bag_damage(part); !damage.empty())
+        throw BagError(fmt::format("bag {}: {}", part, damage));
       rosbag::Bag bag(part, rosbag::bagmode::Read);
       rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::Command>()));
       for (const rosbag::MessageInstance& instance : view) {
         if (const auto command = instance.instantiate<mpm_ros::Command>()) commands.push_back(*command);
       }
     }
-  } catch (const rosbag::BagException& error) {
+  } catch (const ros::Exception& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
+  } catch (const std::bad_alloc&) {
+    throw BagError(
+        fmt::format("bag {} is damaged: a command in it says to be longer than there is memory for", bag_path));
+  } catch (const std::length_error&) {
+    throw BagError(
+        fmt::format("bag {} is damaged: a command in it says to be longer than there is memory for", bag_path));
   }
   if (commands.empty()) throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command)", bag_path));
   return CommandLog(std::move(commands));

@@ -59,11 +59,15 @@ bool CommandQueue::make_room(const BodyCommand& command) {
     return true;
   }
   // Those that are due at the next sync point stand in the order in which they came, on hold last.
-  const auto same = [&](const BodyCommand& other) { return !is_ahead(other) && stream_of(other) == stream; };
-  for (std::vector<BodyCommand>* commands : {&waiting_, &outside_}) {
+  const auto same = [&](const BodyCommand& other) {
+    return other.body == command.body && other.kind == command.kind && !is_ahead(other) &&
+           other.sender == command.sender;
+  };
+  for (std::deque<BodyCommand>* commands : {&waiting_, &outside_}) {
     const auto oldest = std::find_if(commands->begin(), commands->end(), same);
     if (oldest == commands->end()) continue;
     commands->erase(oldest);
+    ++dropped_;
     break;
   }
   return true;
@@ -72,7 +76,7 @@ bool CommandQueue::make_room(const BodyCommand& command) {
 void CommandQueue::count_waiting() {
   ahead_.clear();
   next_.clear();
-  for (const std::vector<BodyCommand>* commands : {&waiting_, &outside_}) {
+  for (const std::deque<BodyCommand>* commands : {&waiting_, &outside_}) {
     for (const BodyCommand& command : *commands)
       ++(is_ahead(command) ? ahead_[command.body] : next_[stream_of(command)]);
   }
@@ -111,7 +115,7 @@ std::int64_t CommandQueue::arrival_of(const BodyCommand& command, std::int64_t n
 
 // A pose to come is due when it is no later than the one under way, or the first; one that sets out now without a
 // stamp to come arrives a command period from now, which is kLongestPeriod at most.
-std::vector<BodyCommand>::iterator CommandQueue::part_later(std::int64_t now) {
+std::deque<BodyCommand>::iterator CommandQueue::part_later(std::int64_t now) {
   std::map<int, std::int64_t> next;  // stamp of the first pose to come, by body
   for (const BodyCommand& command : waiting_) {
     if (command.kind != CommandKind::pose || !command.stamp || *command.stamp <= now) continue;
@@ -162,7 +166,7 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
   std::sort(waiting_.begin(), later, [&](const BodyCommand& a, const BodyCommand& b) { return key(a) < key(b); });
 
   std::vector<DueCommand> due;
-  std::vector<BodyCommand> still_waiting(std::make_move_iterator(later), std::make_move_iterator(waiting_.end()));
+  std::deque<BodyCommand> still_waiting(std::make_move_iterator(later), std::make_move_iterator(waiting_.end()));
   waiting_.erase(later, waiting_.end());
   for (BodyCommand& command : waiting_) {
     if (!is_due(command, now)) {
@@ -204,6 +208,11 @@ void CommandQueue::clear() {
 LateCommands CommandQueue::late() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return late_;
+}
+
+std::uint64_t CommandQueue::dropped() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return dropped_;
 }
 
 std::int64_t CommandQueue::passed() const {

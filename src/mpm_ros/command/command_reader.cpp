@@ -169,6 +169,16 @@ std::uint64_t CommandReader::received() const {
   return received_;
 }
 
+std::uint64_t CommandReader::missing() const { return missing_; }
+
+// A sender that starts again counts from zero again.
+void CommandReader::count_missing(int body, const char* leaf, const std::string& sender,
+                                  const std_msgs::Header& header) {
+  const auto [last, fresh] = last_seq_.try_emplace({body, leaf, sender}, header.seq);
+  if (!fresh && header.seq > last->second) missing_ += header.seq - last->second - 1;
+  last->second = header.seq;
+}
+
 bool CommandReader::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
   std::unique_lock<std::mutex> lock(received_mutex_);
   return received_changed_.wait_for(lock, patience, [&] { return received_ >= count; });
@@ -186,6 +196,7 @@ void CommandReader::take(int body, const geometry_msgs::Twist& message, const st
 
 void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender) {
   const std::lock_guard<std::mutex> taking(taking_);
+  count_missing(body, topics::kCmdVelStamped, sender, message.header);
   BodyCommand command;
   command.body = body;
   command.sender = sender;
@@ -193,6 +204,17 @@ void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, c
   if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
+}
+
+void CommandReader::take_own(int body, const geometry_msgs::Twist& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
+  BodyCommand command;
+  command.body = body;
+  command.sender = sender;
+  std::string problem = refusal_of(body);
+  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
+  command.frame_body = body;
+  push_or_refuse(topics::kCmdVelBody, std::move(command), problem);
 }
 
 void CommandReader::take(int body, const geometry_msgs::Wrench& message, const std::string& sender) {
@@ -207,6 +229,7 @@ void CommandReader::take(int body, const geometry_msgs::Wrench& message, const s
 
 void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message, const std::string& sender) {
   const std::lock_guard<std::mutex> taking(taking_);
+  count_missing(body, topics::kCmdWrenchStamped, sender, message.header);
   BodyCommand command;
   command.body = body;
   command.sender = sender;
@@ -218,6 +241,7 @@ void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message, 
 
 void CommandReader::take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender) {
   const std::lock_guard<std::mutex> taking(taking_);
+  count_missing(body, topics::kCmdPose, sender, message.header);
   BodyCommand command;
   command.body = body;
   command.sender = sender;
@@ -284,6 +308,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   applied.requested = due.command.requested;
   if (due.command.frame_body >= 0) {
     const mpm::Pose& frame = bodies[due.command.frame_body].pose;
+    if (applied.kind == CommandKind::velocity && due.command.frame_body == applied.body) applied.own = applied.twist;
     applied.twist = {frame.orientation * applied.twist.linear, frame.orientation * applied.twist.angular};
     applied.wrench = {frame.orientation * applied.wrench.force, frame.orientation * applied.wrench.torque};
     applied.pose = {frame.to_world(applied.pose.position), (frame.orientation * applied.pose.orientation).normalized()};

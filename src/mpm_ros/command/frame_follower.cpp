@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mpm_ros/message/conversions.hpp"
+
 namespace mpm_ros {
 
 namespace {
@@ -14,6 +16,23 @@ namespace {
 constexpr double kFarthestAhead = 1.0;
 
 }  // namespace
+
+std::optional<mpm::Pose> frame_pose(const tf2::BufferCore& transforms, const std::string& world_frame,
+                                    const std::string& frame, std::string& problem) {
+  try {
+    const geometry_msgs::TransformStamped found = transforms.lookupTransform(world_frame, frame, ros::Time());
+    geometry_msgs::Pose pose;
+    pose.position.x = found.transform.translation.x;
+    pose.position.y = found.transform.translation.y;
+    pose.position.z = found.transform.translation.z;
+    pose.orientation = found.transform.rotation;
+    problem = problem_of(pose);
+    if (problem.empty()) return checked_pose(pose);
+  } catch (const std::runtime_error& error) {  // tf2's
+    problem = error.what();
+  }
+  return std::nullopt;
+}
 
 FrameFollower::FrameFollower(const std::vector<std::string>& frames, std::string world_frame,
                              const tf2::BufferCore& transforms, CommandReader& reader, NodeHealth& health, bool latest)
@@ -75,6 +94,14 @@ std::pair<double, std::string> FrameFollower::farthest_ahead(const ros::Time& ne
     }
   }
   return farthest;
+}
+
+std::optional<mpm::Pose> FrameFollower::latest_pose(int body) const {
+  std::string ignored;
+  for (const Followed& followed : followed_) {
+    if (followed.body == body) return frame_pose(transforms_, world_frame_, followed.frame, ignored);
+  }
+  return std::nullopt;
 }
 
 void FrameFollower::clear() {

@@ -28,6 +28,22 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string share_text(const std::string& frame, const std::string& node) {
+  return fmt::format(
+      "the node {} publishes the tf frame '{}' too, which this one publishes for its body of that name, and who looks "
+      "it "
+      "up gets now one, now the other: give the bodies other names, or one of the nodes a tf of its own (/tf:=/tf_2)",
+      node, frame);
+}
+
+/// What came and had no effect, since more came than could be kept.
+std::string drop_text(const CommandHealth& commands) {
+  return fmt::format(
+      "{} commands and {} messages of tf have been dropped, since they came faster than they were taken; send less "
+      "often",
+      commands.dropped, commands.transforms_dropped);
+}
+
 }  // namespace
 
 void NodeHealth::refuse(const std::string& reason) {
@@ -111,6 +127,15 @@ void NodeHealth::lag(const std::string& what) {
   lag_ = one_line(what);
 }
 
+void NodeHealth::share_frame(const std::string& frame, const std::string& node) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::string& told = shared_frames_[frame];
+  if (told == node) return;
+  told = node;
+  news_ = true;
+  ROS_WARN_STREAM(one_line(share_text(frame, node)));
+}
+
 void NodeHealth::limit(const std::string& body, const LimitHealth& limits) {
   const std::lock_guard<std::mutex> lock(mutex_);
   LimitHealth& before = followers_[body].limits;
@@ -129,7 +154,14 @@ void NodeHealth::set_solver(const SolverHealth& solver) {
 
 void NodeHealth::set_commands(const CommandHealth& commands) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const bool more = commands.dropped > commands_.dropped || commands.transforms_dropped > commands_.transforms_dropped;
   commands_ = commands;
+  if (!more) return;
+  dropped_at_ = Clock::now();
+  news_ = true;
+  if (dropped_at_ - drop_logged_ < kFresh) return;
+  drop_logged_ = dropped_at_;
+  ROS_WARN_STREAM(drop_text(commands_));
 }
 
 void NodeHealth::restart() {
@@ -149,6 +181,10 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   const bool silent =
       std::any_of(followers_.begin(), followers_.end(), [](const auto& follower) { return follower.second.silent; });
   if (silent) status.mergeSummary(DiagnosticStatus::WARN, last_timeout_);
+  if (!shared_frames_.empty()) {
+    const auto& [frame, node] = *shared_frames_.begin();
+    status.mergeSummary(DiagnosticStatus::WARN, one_line(share_text(frame, node)));
+  }
   if (!lag_.empty()) status.mergeSummary(DiagnosticStatus::WARN, lag_);
   for (const auto& [body, follower] : followers_) {
     if (!follower.waits.empty()) status.mergeSummary(DiagnosticStatus::WARN, follower.waits);
@@ -159,6 +195,8 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
                                                               body, limits.behind, limits.behind_angle));
     }
   }
+  if (commands_.dropped + commands_.transforms_dropped > 0 && now - dropped_at_ < kFresh)
+    status.mergeSummary(DiagnosticStatus::WARN, drop_text(commands_));
   if (jumps_ > 0 && now - jumped_at_ < kFresh) status.mergeSummary(DiagnosticStatus::WARN, last_jump_);
   if (refused_ > 0 && now - refused_at_ < kFresh) status.mergeSummary(DiagnosticStatus::WARN, last_refusal_);
   status.add("refused", refused_);
@@ -168,6 +206,9 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("waiting", commands_.waiting);
   status.add("waiting at most", commands_.most_waiting);
   status.add("farthest stamp ahead [s]", commands_.horizon);
+  status.add("dropped", commands_.dropped);
+  status.add("dropped messages of tf", commands_.transforms_dropped);
+  status.add("gaps in header.seq", commands_.missing);
   status.add("timeouts", timeouts_);
   status.add("last timeout", last_timeout_);
   status.add("jumps", jumps_);

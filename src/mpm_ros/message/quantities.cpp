@@ -159,7 +159,9 @@ const std::vector<StateQuantity>& state_quantities() {
           .not_compared(),
       Q("commands applied", "1", Over::start, Nothing{}, FIELD(commands_applied), "", ""),
       Q("commands late", "1", Over::start, Nothing{}, FIELD(commands_late), "", "").not_compared(),
-      Q("commands refused", "1", Over::start, Nothing{}, FIELD(commands_refused), "", "").not_compared()};
+      Q("commands refused", "1", Over::start, Nothing{}, FIELD(commands_refused), "", "").not_compared(),
+      Q(kCommandsDropped, "1", Over::start, Nothing{}, Nothing{}, "", "came faster than the node took them")
+          .not_compared()};
   return list;
 }
 

@@ -44,6 +44,7 @@ void CommandMemory::serialise(mpm::StateArchive& archive) {
   queue.serialise(archive);
   watch.serialise(archive);
   limiter.serialise(archive);
+  turning.serialise(archive);
 }
 
 BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const NodeParameters& parameters,
@@ -74,8 +75,10 @@ void BodyCommands::stop_listening() {
 CommandMemory BodyCommands::fresh_memory(const mpm::Scene& scene) const {
   // What was recorded is within the limits already.
   std::vector<mpm::MotionLimits> limits = log_.empty() ? limits_of(scene) : std::vector<mpm::MotionLimits>();
-  return {CommandQueue(scene.definition.time.sync), CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
-          CommandLimiter(std::move(limits), health_)};
+  return {CommandQueue(scene.definition.time.sync),
+          CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
+          CommandLimiter(std::move(limits), health_),
+          {}};
 }
 
 void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
@@ -84,6 +87,7 @@ void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
   memory_.queue.take_over(memory.queue);
   memory_.watch = memory.watch;
   memory_.limiter.take_over(memory.limiter);
+  memory_.turning = memory.turning;
   log_.skip_to(run.simulation().time());
   if (bridge_) bridge_->follower().clear();
 }
@@ -105,6 +109,7 @@ BodyCommands::Outcome BodyCommands::apply_due(Run& run, const std::vector<Applie
     if (const std::string refusal = apply(run, command); !refusal.empty()) return {refusal, {}};
   }
   if (const std::string silence = act_on_silence(run); !silence.empty()) return {{}, silence};
+  turn(run);
   apply_limited(run);
   return {};
 }
@@ -140,6 +145,17 @@ void BodyCommands::look_at_lag(const Run& run) {
       lag, pace, what, frames_wait ? "is" : "are", frames_wait ? "tf_time" : "command_time"));
 }
 
+void BodyCommands::turn(Run& run) {
+  for (const AppliedCommand& command : memory_.turning.next(run.simulation().bodies(), run.simulation().time())) {
+    try {
+      if (!memory_.limiter.take(command, run.simulation())) run.apply(command);
+    } catch (const mpm::RigidError& error) {
+      memory_.turning.drop(command.body);
+      health_.refuse(fmt::format("the velocity of '{}' in its own axes: {}", bodies_[command.body], error.what()));
+    }
+  }
+}
+
 void BodyCommands::apply_limited(Run& run) {
   for (const AppliedCommand& command : memory_.limiter.next(run.simulation())) {
     try {
@@ -168,6 +184,8 @@ std::string BodyCommands::apply(Run& run, const AppliedCommand& command) {
     health_.refuse(reason);
     return reason;
   }
+  if (command.kind != CommandKind::wrench) memory_.turning.drop(command.body);
+  if (command.own) memory_.turning.hold(command.body, *command.own, body.pose().orientation);
   memory_.watch.heard(command);
   health_.follow(follower_name(body.name(), command.kind == CommandKind::wrench),
                  static_cast<double>(command.effect) * 1e-9);
@@ -192,6 +210,7 @@ std::string BodyCommands::act_on_silence(Run& run) {
     if (parameters_.on_timeout == OnTimeout::stop) {
       for (const AppliedCommand& stop : stop_commands(silent.body, run.simulation())) {
         if ((stop.kind == CommandKind::wrench) != silent.wrench) continue;
+        if (!silent.wrench) memory_.turning.drop(silent.body);
         if (!memory_.limiter.take(stop, run.simulation())) run.apply(stop);
       }
       health_.time_out(follower, silence + (silent.wrench ? ": nothing pushes it any more" : ": it stands still"));
@@ -238,8 +257,10 @@ void BodyCommands::forget_frames() {
   if (bridge_) bridge_->forget_frames();
 }
 
-void BodyCommands::find_strangers() {
-  if (bridge_) bridge_->find_strangers();
+void BodyCommands::keep_house() {
+  if (!bridge_) return;
+  bridge_->find_dropped();
+  bridge_->find_strangers();
 }
 
 }  // namespace mpm_ros

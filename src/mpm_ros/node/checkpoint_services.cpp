@@ -15,8 +15,6 @@ namespace mpm_ros {
 
 namespace {
 
-constexpr const char* kNodeEnds = "the node is ending";
-
 std::string from_root(const std::string& path) {
   return std::filesystem::path(absolute_path(path)).lexically_normal().string();
 }
@@ -26,14 +24,12 @@ std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_
 }  // namespace
 
 bool SimulatorNode::on_save_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response) {
-  response.message = kNodeEnds;
-  mailbox_.call([&] { save_checkpoint(request.path, response); });
+  hand_over([&] { save_checkpoint(request.path, response); }, response.message);
   return true;
 }
 
 bool SimulatorNode::on_load_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response) {
-  response.message = kNodeEnds;
-  mailbox_.call([&] { load_checkpoint(request.path, response); });
+  hand_over([&] { load_checkpoint(request.path, response); }, response.message);
   return true;
 }
 

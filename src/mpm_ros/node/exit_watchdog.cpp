@@ -1,11 +1,35 @@
 #include "mpm_ros/node/exit_watchdog.hpp"
 
+#include <ros/init.h>
+
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
+
+namespace {
+
+/// Ends the process, and before it leaves ROS's graph, as far as the master answers in time.
+[[noreturn]] void leave(int exit_code) {
+  constexpr std::chrono::milliseconds kPatience{400};
+  if (ros::isStarted()) {
+    static std::atomic<bool> left{false};
+    std::thread([] {
+      ros::shutdown();
+      left = true;
+    }).detach();
+    for (std::chrono::milliseconds waited{0}, look{10}; !left && waited < kPatience; waited += look)
+      std::this_thread::sleep_for(look);
+  }
+  std::fflush(stdout);
+  std::_Exit(exit_code);
+}
+
+}  // namespace
 
 ExitWatchdog::ExitWatchdog(std::chrono::milliseconds patience) : patience_(patience) {
   std::thread([this] { watch(); }).detach();
@@ -17,14 +41,34 @@ void ExitWatchdog::ends(int exit_code) {
   may_end_ = true;
 }
 
-void ExitWatchdog::watch() const {
+void ExitWatchdog::watch() {
   constexpr std::chrono::milliseconds kLook{50}, kStopPatience{900};
-  std::chrono::milliseconds stopped{0}, ended{0};
+  std::chrono::milliseconds asked{0}, stopped{0}, ended{0};
   for (;; std::this_thread::sleep_for(kLook)) {
-    stopped = stop_requested() && may_end_ ? stopped + kLook : std::chrono::milliseconds{0};
+    const bool stop = stop_requested();
+    asked = stop ? asked + kLook : std::chrono::milliseconds{0};
+    stopped = stop && may_end_ ? stopped + kLook : std::chrono::milliseconds{0};
     ended = ends_ ? ended + kLook : std::chrono::milliseconds{0};
-    if (stopped > kStopPatience || ended > patience_) std::_Exit(exit_code_);
+    if (ended > patience_ || (ends_ && stopped > kStopPatience)) std::_Exit(exit_code_);
+    if (stopped > kStopPatience) {
+      std::fputs("stopped before there was a run\n", stderr);
+      leave(exit_code_);
+    }
+    if (asked <= kStopPatience) continue;
+    // The lock is kept: who works meanwhile waits at the end of its work for the end of the process.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (close_) leave(close_());
   }
+}
+
+ExitWatchdog::Deaf::Deaf(ExitWatchdog& watchdog, std::function<int()> close) : watchdog_(watchdog) {
+  const std::lock_guard<std::mutex> lock(watchdog_.mutex_);
+  watchdog_.close_ = std::move(close);
+}
+
+ExitWatchdog::Deaf::~Deaf() {
+  const std::lock_guard<std::mutex> lock(watchdog_.mutex_);
+  watchdog_.close_ = nullptr;
 }
 
 }  // namespace mpm_ros

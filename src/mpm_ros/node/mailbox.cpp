@@ -13,11 +13,19 @@ bool Mailbox::call(const std::function<void()>& work, Turn turn) {
   if (turn == Turn::at_once) ++urgent_;
   changed_.notify_all();
   // A letter that has left the queue is being worked on and will be done, closed or not.
-  changed_.wait(lock, [&] {
-    return letter.done || (closed_ && std::find(letters_.begin(), letters_.end(), &letter) != letters_.end());
-  });
-  if (!letter.done) letters_.erase(std::find(letters_.begin(), letters_.end(), &letter));
-  return letter.done;
+  const auto waits = [&] { return std::find(letters_.begin(), letters_.end(), &letter) != letters_.end(); };
+  const auto late = [&] { return busy_since_ && std::chrono::steady_clock::now() >= *busy_since_ + kBusyPatience; };
+  while (!letter.done && !((closed_ || late()) && waits())) {
+    if (busy_since_ && waits()) {
+      changed_.wait_until(lock, *busy_since_ + kBusyPatience);
+    } else {
+      changed_.wait(lock);
+    }
+  }
+  if (letter.done) return true;
+  letters_.erase(std::find(letters_.begin(), letters_.end(), &letter));
+  if (turn == Turn::at_once) --urgent_;
+  return false;
 }
 
 void Mailbox::run_until(std::chrono::steady_clock::time_point deadline) {
@@ -39,6 +47,18 @@ void Mailbox::run_until(std::chrono::steady_clock::time_point deadline) {
     changed_.notify_all();
     if (error) std::rethrow_exception(error);
   }
+}
+
+void Mailbox::set_busy(bool busy) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  busy_since_.reset();
+  if (busy) busy_since_ = std::chrono::steady_clock::now();
+  changed_.notify_all();
+}
+
+bool Mailbox::closed() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return closed_;
 }
 
 void Mailbox::close() {

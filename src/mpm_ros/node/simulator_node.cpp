@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <ros/console.h>
+#include <ros/service.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +12,7 @@
 
 #include "mpm/scene/target_record.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/node/neighbours.hpp"
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/start_line.hpp"
 #include "mpm_ros/run/aim.hpp"
@@ -35,10 +37,35 @@ constexpr std::chrono::milliseconds kLinger{300};
 
 }  // namespace
 
-SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters)
+class SimulatorNode::Building {
+ public:
+  explicit Building(SimulatorNode& node) : node_(node), deaf_(node.watchdog_, [&node] { return stop(node); }) {
+    node_.mailbox_.set_busy(true);
+  }
+  ~Building() { node_.mailbox_.set_busy(false); }
+  Building(const Building&) = delete;
+  Building& operator=(const Building&) = delete;
+
+ private:
+  /// On the watchdog's thread; the run stands between two sync points.
+  static int stop(SimulatorNode& node) {
+    node.mailbox_.close();
+    if (!node.run_) return 0;  // the first one is not there yet
+    ROS_WARN_STREAM("stopped while a scene was built for the next run; the record ends with the run before");
+    node.end_run();
+    return node.exit_code();
+  }
+
+  SimulatorNode& node_;
+  const ExitWatchdog::Deaf deaf_;
+};
+
+SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, ExitWatchdog& watchdog)
     : node_(std::move(node)),
       parameters_(parameters),
+      watchdog_(watchdog),
       heights_(wait_for_height_maps(node_, parameters.scene, parameters.set, parameters.world_frame)),
+      poses_(node_, parameters, heights_.set),
       subject_(std::make_shared<const Subject>(
           Subject{aimed(parameters.resume.empty() ? load({}) : with_choice_of(load({}), parameters.resume)), {}})),
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
@@ -69,13 +96,28 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
   services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
 
-  diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.find_strangers(); });
+  diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.keep_house(); });
   service_spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &service_callbacks_);
   pause_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &pause_callbacks_);
   commands_.listen();
   service_spinner_->start();
   pause_spinner_->start();
   tell_start(expected);
+}
+
+void SimulatorNode::check_neighbours(const ros::NodeHandle& node, const NodeParameters& parameters) {
+  const Neighbours neighbours = Neighbours::ask();
+  const std::string& self = ros::this_node::getName();
+  std::vector<std::string> services;
+  for (const char* service : {topics::kPause, topics::kReset, topics::kResetWith, topics::kStep,
+                              topics::kSaveCheckpoint, topics::kLoadCheckpoint})
+    services.push_back(node.resolveName(service));
+  const auto alive = [](const std::string& service) { return ros::service::exists(service, false); };
+  if (const std::string taken = taken_service(neighbours, self, services, alive); !taken.empty())
+    throw ParameterError(taken);
+  if (!parameters.publish_clock || !ros::Time::isSimTime()) return;
+  const std::string second = second_clock(neighbours, self, node.resolveName(topics::kClock));
+  if (!second.empty()) ROS_WARN_STREAM(second);
 }
 
 SimulatorNode::~SimulatorNode() {
@@ -96,6 +138,7 @@ Stamps SimulatorNode::first_stamps() const {
 
 mpm::Scene SimulatorNode::load(const std::vector<std::string>& set) const {
   std::vector<std::string> overrides = heights_.set;
+  overrides.insert(overrides.end(), poses_.set().begin(), poses_.set().end());
   overrides.insert(overrides.end(), set.begin(), set.end());
   return mpm::load_scene(parameters_.scene, overrides);
 }
@@ -109,13 +152,18 @@ mpm::Scene SimulatorNode::aimed(mpm::Scene scene) const {
   return aim.scene;
 }
 
-std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const std::string& checkpoint) const {
-  if (subject_->scene.text == mpm::read_checkpoint(checkpoint).label.scene_text) return subject_;
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const std::string& checkpoint) {
+  const std::string text = mpm::read_checkpoint(checkpoint).label.scene_text;
+  if (subject_->scene.text == text) return subject_;
+  if (poses_.any()) poses_.take_recorded(text);
+  const Building building(*this);
   mpm::Scene scene = aimed(with_choice_of(load(subject_->set), checkpoint));
   return checked({std::move(scene), subject_->set});
 }
 
-std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) const {
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) {
+  poses_.look_again(subject_->scene, [this](int body) { return commands_.frame_pose(body); });
+  const Building building(*this);
   mpm::Scene scene = load(set);
   if (mpm::RecordedChoice choice = mpm::with_recorded_choice(scene, subject_->scene.text); choice.scene)
     scene = std::move(*choice.scene);
@@ -157,7 +205,11 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   if (!subject->scene.output.global.empty()) publishers_->add_global();
   if (subject->scene.definition.cracks.any()) publishers_->add_cracks();
   if (local_frame(subject->scene.definition.grid, parameters_.world_frame).apart()) publishers_->add_static_frames();
-  auto run = std::make_unique<Run>(subject->scene, options, stamps, publishers_.get());
+  std::unique_ptr<Run> run;
+  {
+    const Building building(*this);
+    run = std::make_unique<Run>(subject->scene, options, stamps, publishers_.get());
+  }
   if (run_) end_run();
   run_ = std::move(run);
   subject_ = subject;
@@ -281,8 +333,21 @@ int SimulatorNode::spin() {
   end_run();
   mailbox_.close();
   std::this_thread::sleep_for(kLinger);
+  if (!used_up().empty()) ROS_FATAL_STREAM(used_up());
+  return exit_code();
+}
+
+int SimulatorNode::exit_code() const {
   if (!failure_.empty()) return failure_code_;
-  return bag_lost_ ? 1 : 0;
+  return bag_lost_ || !used_up().empty() ? 1 : 0;
+}
+
+bool SimulatorNode::hand_over(const std::function<void()>& work, std::string& message, Mailbox::Turn turn) {
+  if (mailbox_.call(work, turn)) return true;
+  message = mailbox_.closed()
+                ? "the node is ending"
+                : "a scene is being built (reset, reset_with or load_checkpoint); ask again when it is done";
+  return false;
 }
 
 bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal) {
@@ -352,7 +417,7 @@ void SimulatorNode::end_run() {
 
 void SimulatorNode::count_commands() {
   const LateCommands late = commands_.late();
-  run_->count_commands(late.unstamped + late.past, health_.refused());
+  run_->count_commands(late.unstamped + late.past, health_.refused(), commands_.dropped());
   run_->count_overruns(pacer_->overruns());
 }
 
@@ -400,7 +465,8 @@ void SimulatorNode::report() {
 
   const LateCommands late = commands_.late();
   health_.set_commands({late.unstamped, late.past, commands_.waiting(), CommandQueue::kMost,
-                        static_cast<double>(CommandQueue::kHorizon) * 1e-9});
+                        static_cast<double>(CommandQueue::kHorizon) * 1e-9, commands_.dropped(), commands_.missing(),
+                        commands_.dropped_transforms()});
 }
 
 }  // namespace mpm_ros

@@ -15,43 +15,45 @@ namespace mpm_ros {
 
 namespace {
 
-constexpr const char* kEnding = "the node is ending";
 /// How long a step waits for command messages that are on their way, by the wall's clock.
 constexpr std::chrono::milliseconds kPatience{5000};
 /// [s] of simulated time; its nanoseconds are still a whole number of 64 bits.
 constexpr double kLongestStep = 1e9;
+/// Of one request; each is checked, applied, published and recorded at one sync point.
+constexpr std::size_t kMostCommands = 10'000;
 /// How often it looks whether the node is to stop.
 constexpr std::chrono::milliseconds kPoll{50};
 
 }  // namespace
 
 bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  response.message = kEnding;
   const bool paused = request.data != 0;
-  mailbox_.call([&] { pause(paused, response); }, paused ? Mailbox::Turn::at_once : Mailbox::Turn::first);
+  hand_over([&] { pause(paused, response); }, response.message, paused ? Mailbox::Turn::at_once : Mailbox::Turn::first);
   return true;
 }
 
 bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  response.message = kEnding;
-  mailbox_.call([&] {
+  const auto work = [&] {
     bool success = false;
-    response.message = reset(subject_, success);
+    try {
+      response.message = reset(poses_.any() ? load_subject(subject_->set) : subject_, success);
+    } catch (const std::exception& error) {
+      response.message = refusal_of(error);
+    }
     response.success = success ? 1 : 0;
-  });
+  };
+  hand_over(work, response.message);
   return true;
 }
 
 bool SimulatorNode::on_reset_with(Reset::Request& request, Reset::Response& response) {
-  response.message = kEnding;
-  mailbox_.call([&] { reset_with(request.set, response); });
+  hand_over([&] { reset_with(request.set, response); }, response.message);
   return true;
 }
 
 bool SimulatorNode::on_step(Step::Request& request, Step::Response& response) {
-  response.message = kEnding;
   if (!wait_received(request, response)) return true;
-  mailbox_.call([&] { step(request, response); });
+  hand_over([&] { step(request, response); }, response.message);
   return true;
 }
 
@@ -165,6 +167,10 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   std::string problem = step_refused();
   std::int64_t periods = 0;
   std::vector<AppliedCommand> commands;
+  if (problem.empty() && request.commands.size() > kMostCommands) {
+    problem = fmt::format("the request has {} commands, and a step takes {} at most; send the others with later steps",
+                          request.commands.size(), kMostCommands);
+  }
   if (problem.empty()) periods = periods_of(request, problem);
   if (problem.empty()) commands = commands_.read(request.commands, periods, *run_, problem);
   if (!problem.empty()) {

@@ -9,9 +9,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "mpm/math/input_file.hpp"
+#include "mpm_ros/message/bag_damage.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/topics.hpp"
@@ -43,9 +46,25 @@ typename Message::ConstPtr take(const rosbag::MessageInstance& instance, const s
 }
 
 /// An error of the bag library, which is one line.
-BagError damaged(const std::string& path, const ros::Exception& problem) {
+BagError damaged(const std::string& path, const std::string& problem) {
   return BagError(
-      fmt::format("{}: damaged ({}); what is whole can be saved with: rosbag reindex {}", path, problem.what(), path));
+      fmt::format("{}: damaged ({}); what is whole can be saved with: rosbag reindex {}", path, problem, path));
+}
+
+/// Reads; what rosbag and messages throw is an error of the bag. A list of a message that says to be longer than memory
+/// is one, too.
+template <typename Work>
+void reading(const std::string& path, const Work& work) {
+  constexpr const char* kTooLong = "a message in it says to be longer than there is memory for";
+  try {
+    work();
+  } catch (const ros::Exception& error) {
+    throw damaged(path, error.what());
+  } catch (const std::bad_alloc&) {
+    throw damaged(path, kTooLong);
+  } catch (const std::length_error&) {
+    throw damaged(path, kTooLong);
+  }
 }
 
 /// Tells how far a view is read; counts messages.
@@ -75,16 +94,14 @@ bool is_bag(const std::string& path) {
 }
 
 RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(path) {
-  open();
-  try {
+  reading(path_, [&] {
+    open();
     find_run(name_space);
     find_start();
     check_parts();
     find_frames();
     find_fields();
-  } catch (const ros::Exception& error) {
-    throw damaged(path_, error);
-  }
+  });
 }
 
 void RunBag::open() {
@@ -99,6 +116,9 @@ bool RunBag::open_part(const std::string& path, bool first) {
   if (std::filesystem::file_size(path, error) == 0) {
     if (!first) return false;
     throw BagError(path + ": an empty file, not a bag; was the recording stopped before it began?");
+  }
+  if (const std::string damage = bag_damage(path); !damage.empty()) {
+    throw BagError(fmt::format("{}: {}; what is whole can be saved with: rosbag reindex {}", path, damage, path));
   }
   auto bag = std::make_unique<rosbag::Bag>();
   try {
@@ -250,18 +270,18 @@ void RunBag::hand_on_cloud(const rosbag::MessageInstance& instance, const std::v
   for (RunVisitor* visitor : visitors) visitor->particles(time, cloud);
 }
 
-void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& reading) {
+void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& told) {
   std::vector<std::string> names;
   for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
                            topics::kCracks, topics::kCommands, topics::kParticles, topics::kMarkers}) {
     names.push_back(topic(name));
   }
   names.emplace_back(topics::kClock);
-  try {
+  reading(path_, [&] {
     rosbag::View view;
     select(view, names);
     bool shaped = false;
-    Count count(view, reading);
+    Count count(view, told);
     for (const rosbag::MessageInstance& instance : view) {
       count.next();
       if (instance.getTopic() == topics::kClock) {
@@ -289,13 +309,11 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& readi
         for (RunVisitor* visitor : visitors) visitor->markers(*message);
       }
     }
-  } catch (const ros::Exception& error) {
-    throw damaged(path_, error);
-  }
+  });
 }
 
 void RunBag::read_states_and_commands(RunVisitor& visitor) {
-  try {
+  reading(path_, [&] {
     rosbag::View view;
     select(view, {topic(topics::kSolverState), topic(topics::kCommands)});
     for (const rosbag::MessageInstance& instance : view) {
@@ -305,25 +323,21 @@ void RunBag::read_states_and_commands(RunVisitor& visitor) {
         hand_on(instance, {&visitor}, &RunVisitor::solver_state);
       }
     }
-  } catch (const ros::Exception& error) {
-    throw damaged(path_, error);
-  }
+  });
 }
 
-void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor, const Reading& reading) {
-  try {
+void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor, const Reading& told) {
+  reading(path_, [&] {
     rosbag::View view;
     select(view, {topic(topics::kParticles)});
-    Count count(view, reading);
+    Count count(view, told);
     std::size_t index = 0;
     for (const rosbag::MessageInstance& instance : view) {
       count.next();
       if (chosen.count(index++) == 0) continue;
       hand_on_cloud(instance, {&visitor});
     }
-  } catch (const ros::Exception& error) {
-    throw damaged(path_, error);
-  }
+  });
 }
 
 }  // namespace mpm_ros

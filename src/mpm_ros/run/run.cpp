@@ -16,7 +16,8 @@
 namespace mpm_ros {
 namespace {
 
-constexpr double kWorthKeeping = 1.0;  ///< [s] of a run: the cost of its steps serves forecasts
+constexpr double kWorthKeeping = 1.0;                  ///< [s] of a run: the cost of its steps serves forecasts
+constexpr std::int64_t kJumpRemembered = 100'000'000;  ///< [ns] after a jump: a failure is told with it
 
 }  // namespace
 
@@ -81,14 +82,15 @@ void Run::serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more) 
     more(archive);
     return;
   }
-  std::uint64_t waiting = 0, goals = 0;
+  std::uint64_t waiting = 0, goals = 0, turning = 0;
   archive.value("queue/waiting/rows", waiting);
   archive.value("limiter/goals/rows", goals);
-  if (waiting + goals > 0) {
+  archive.value("turning/held/rows", turning);
+  if (const std::uint64_t commands = waiting + goals + turning; commands > 0) {
     throw mpm::CheckpointError(
-        fmt::format("the checkpoint has {} commands that wait for their time or are under way within limits, which the "
-                    "node alone can give: resume it there, _resume:=FILE",
-                    waiting + goals));
+        fmt::format("the checkpoint has {} commands that wait for their time, are under way within limits or turn with "
+                    "their body, which the node alone can give: resume it there, _resume:=FILE",
+                    commands));
   }
 }
 
@@ -104,7 +106,9 @@ mpm::CheckpointAbout Run::save(const std::string& path, const mpm::SerialiseMore
 }
 
 void Run::apply(const AppliedCommand& command) {
+  std::string jump = jump_of(command, simulation_);
   mpm_ros::apply(command, simulation_);
+  if (!jump.empty()) jump_ = {std::move(jump), command.arrival};
   outputs_.command(command);
 }
 
@@ -114,6 +118,9 @@ void Run::advance() {
   } catch (const mpm::StoppedError&) {
     cut_short_ = true;
     throw;
+  } catch (const mpm::PhysicsError& error) {
+    if (jump_.what.empty() || simulation_.time() > jump_.arrival + kJumpRemembered) throw;
+    throw mpm::PhysicsError(fmt::format("{}; it follows a jump: {}", error.what(), jump_.what));
   }
   look_for_lost_bodies();
   look_for_fast_bodies();

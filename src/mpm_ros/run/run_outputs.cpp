@@ -11,6 +11,7 @@
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/scene_files.hpp"
@@ -254,9 +255,10 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   end_writing();
 }
 
-void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused) {
+void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped) {
   late_ = late;
   refused_ = refused;
+  dropped_ = dropped;
 }
 
 void RunOutputs::read_contacts() {
@@ -337,6 +339,12 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
   message.commands_applied = applied_;
   message.commands_late = late_;
   message.commands_refused = refused_;
+  if (dropped_ > 0) {
+    NamedValue& dropped = message.values.emplace_back();
+    dropped.name = kCommandsDropped;
+    dropped.unit = "1";
+    dropped.value = {static_cast<double>(dropped_)};
+  }
   message.failed = state_.failed;
   message.failure = state_.failure;
   if (with_hash) message.state_hash = hash_text(simulation_.state_hash());

@@ -14,7 +14,6 @@
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/threads.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
-#include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -83,11 +82,7 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
 
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
-  const auto read = [&] {
-    const NothingToLose reading;
-    return rerun ? recorded_scene(options, *rerun) : scene_of(options);
-  };
-  mpm::Scene scene = read();
+  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
   if (options.ranks && scene.target && !scene.target->chosen) {
     throw mpm::SceneError(fmt::format("{}: target: ranks would choose each for itself{}", scene.path, kAsOne));
   }

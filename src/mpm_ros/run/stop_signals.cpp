@@ -1,11 +1,10 @@
 #include "mpm_ros/run/stop_signals.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <ctime>
+#include <string>
 
 namespace mpm_ros {
 namespace {
@@ -14,28 +13,19 @@ namespace {
 std::atomic<std::int64_t> asked_at{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
+std::atomic<bool> out_of_time{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
 std::int64_t steady_now() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
-/// How many NothingToLose there are.
-std::atomic<int> nothing_to_lose{0};
-static_assert(std::atomic<int>::is_always_lock_free);
-
-void on_stop_signal(int) {
+void on_stop_signal(int signal) {
+  if (signal == SIGXCPU) out_of_time = true;
   std::int64_t none = 0;
   asked_at.compare_exchange_strong(none, steady_now());
-  if (nothing_to_lose > 0) alarm(1);
-}
-
-void on_alarm(int) {
-  if (nothing_to_lose <= 0) return;
-  constexpr char kLine[] = "stopped while the scene was read; nothing was recorded\n";
-  const ssize_t ignored = write(STDERR_FILENO, kLine, sizeof kLine - 1);
-  static_cast<void>(ignored);
-  _exit(0);
 }
 
 }  // namespace
@@ -43,8 +33,17 @@ void on_alarm(int) {
 void catch_stop_signals() {
   std::signal(SIGINT, on_stop_signal);
   std::signal(SIGTERM, on_stop_signal);
+  std::signal(SIGXCPU, on_stop_signal);
   if (std::signal(SIGHUP, on_stop_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  std::signal(SIGALRM, on_alarm);
+  ignore_file_limit();
+}
+
+void ignore_file_limit() { std::signal(SIGXFSZ, SIG_IGN); }
+
+std::string used_up() {
+  return out_of_time ? "the processor time that the process may take (ulimit -t) is used up: stopped, with what is "
+                       "recorded so far; raise the limit"
+                     : "";
 }
 
 bool stop_requested() { return asked_at != 0; }
@@ -53,8 +52,5 @@ bool stop_overdue() {
   const std::int64_t at = asked_at;
   return at != 0 && steady_now() - at >= std::chrono::nanoseconds(kStopGrace).count();
 }
-
-NothingToLose::NothingToLose() { ++nothing_to_lose; }
-NothingToLose::~NothingToLose() { --nothing_to_lose; }
 
 }  // namespace mpm_ros

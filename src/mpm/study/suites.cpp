@@ -28,7 +28,8 @@ const Suite& find_suite(const std::string& name) {
     names += (names.empty() ? "" : ", ") + suite.name;
   }
   if (name == "tool_force") throw StudyError("the suite tool_force has options and tables of its own; run it alone");
-  throw StudyError(fmt::format("no suite is called '{}'; there are {}, and tool_force, which is run alone", name, names));
+  throw StudyError(
+      fmt::format("no suite is called '{}'; there are {}, and tool_force, which is run alone", name, names));
 }
 
 std::vector<Discretisation> grids(const std::vector<int>& cells, int varied) {

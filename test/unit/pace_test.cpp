@@ -106,7 +106,8 @@ TEST(Pace, AForecastSaysWhatItDoesNotKnow) {
   forecast.cost.touched = false;
   EXPECT_TRUE(says("; no tool touched when its steps were timed, and contact"));
   forecast.cost.awake = 0.2;  // an eighth of real time with a fifth awake
-  EXPECT_TRUE(says("; 80 % of the material slept when its steps were timed, and what wakes costs more: down to 0.025 of"));
+  EXPECT_TRUE(
+      says("; 80 % of the material slept when its steps were timed, and what wakes costs more: down to 0.025 of"));
   forecast.cost.steps = 1500;
   EXPECT_TRUE(forecast.of_run());
   EXPECT_FALSE(says("slept") || says("touched"));

@@ -7,8 +7,8 @@
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
-#include "mpm/simulation/tool_size.hpp"
 #include "mpm/shape/ring.hpp"
+#include "mpm/simulation/tool_size.hpp"
 
 namespace mpm {
 namespace {

@@ -11,6 +11,11 @@
 The names are loaded at their first use, so that tools which only want the messages need no NumPy.
 """
 import importlib
+import pkgutil
+
+# The generated messages lie in another folder of this name. A process that was spawned with this program's sys.path, on which
+# the build folder's own package has put the sources first, finds them by this.
+__path__ = pkgutil.extend_path(__path__, __name__)
 
 _HOMES = {"MpmError": "errors", "Observation": "simulator", "Particles": "particles", "Recording": "recording",
           "Simulator": "simulator", "Sweep": "sweep", "SweepRun": "sweep", "Table": "recording", "run_sweep": "sweep"}

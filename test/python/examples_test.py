@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
-"""The examples run by themselves, as a user starts them. 25 s."""
+"""The examples run by themselves, as a user starts them; those of the how-to pages on coarse grids. 40 s."""
 import os
+import re
 import signal
+import socket
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import mpm_ros
-from support import processes_with, program, source_file
+import numpy as np
+import rospkg
+from support import processes_with, program, run, source_file
 
 
 class Examples(unittest.TestCase):
@@ -16,6 +21,7 @@ class Examples(unittest.TestCase):
                               check=False, timeout=120)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn(text, done.stdout)
+        return done.stdout
 
     def test_the_controller_settles(self):
         self.expect("settled\n", "lockstep.py")
@@ -41,6 +47,76 @@ class Examples(unittest.TestCase):
 
     def test_episodes_run_in_one_simulator(self):
         self.expect("20 episodes, 0 failed", "episodes.py", "--episodes", "20")
+
+    def test_parallel_episodes_are_those_of_one_simulator(self):
+        self.expect("the same episodes to the bit", "parallel_episodes.py", "--episodes", "2", "--simulators", "2",
+                    "--compare")
+
+    def test_a_bucket_weighs_the_sand_that_it_carries(self):
+        # Exits with 0 only where weight and mass agree within a tenth.
+        self.expect("in the bucket", "dig.py", "--set", "grid.cell=0.04")
+
+    def test_a_wheel_rig_bears_its_load_and_pulls_more_the_more_it_slips(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run(program("run_scene"), "--sweep", source_file("examples/wheel_rig_sweep.yaml"), "--jobs", "0", "--out",
+                os.path.join(folder, "shipped"))
+            rig = os.path.join(folder, "rig")
+            # 60 and 0 % of slip; the load is 40 kg.
+            sweep = mpm_ros.run_sweep({"scene": source_file("examples/wheel_rig.yaml"), "set": {"grid.cell": 0.04},
+                                       "parameters": {"rigid_bodies.wheel.motion.velocity.0": {"values": [0.12, 0.3]}},
+                                       "record": ["bag"]}, rig)
+            for made in sweep.runs:
+                self.assertAlmostEqual(made.metrics["load"] / (40 * 9.81), 1, delta=0.02)
+            rows = self.expect("slip", "wheel_rig_table.py", rig).splitlines()[1:]
+        (slip, pull, torque, sinkage), (more, pull_more, torque_more, sinkage_more) = [
+            [float(word) for word in row.split()] for row in rows]
+        self.assertEqual((slip, more), (0, 60))
+        self.assertGreater(pull_more, pull)
+        self.assertGreater(torque_more, torque)
+        self.assertGreater(sinkage_more, sinkage)
+
+    def test_joint_torques_do_the_work_of_the_wrench(self):
+        # Virtual work: a joint that turns by dq moves the link's origin by dq axis x r and turns the link by dq axis.
+        sys.path.insert(0, source_file("examples/arm"))
+        from arm_torques import Joint, chain_to, joint_torque, rotated
+        with open(source_file("examples/arm/arm.urdf"), encoding="utf-8") as file:
+            chain, root = chain_to("scoop", file.read())
+        self.assertEqual(([joint.name for joint in chain], root), (["swing", "shoulder", "elbow", "wrist"], "world"))
+        place, turn = np.array([0.3, -0.2, 0.5]), np.array([0.5, -0.5, 0.5, 0.5])
+        force, torque = np.array([3.0, -4.0, 5.0]), np.array([0.2, 0.7, -0.4])
+        axis = rotated(turn, np.array([0.0, 0.0, 1.0]))
+        np.testing.assert_allclose(axis, [0, -1, 0], atol=1e-15)  # a third of a turn about (1, -1, 1)
+        work = force @ np.cross(axis, -place) + torque @ axis
+        found = joint_torque(Joint("a", "revolute", "b", np.array([0.0, 0.0, 1.0])), place, turn, force, torque)
+        self.assertAlmostEqual(found, work, delta=1e-12)
+        found = joint_torque(Joint("a", "prismatic", "b", np.array([0.0, 0.0, 1.0])), place, turn, force, torque)
+        self.assertAlmostEqual(found, force @ axis, delta=1e-12)
+
+    @unittest.skipUnless("robot_state_publisher" in rospkg.RosPack().list(),
+                         "ros-robot-state-publisher is not installed; scripts/install_packages test does so")
+    def test_an_arm_feels_the_sand_in_its_joints(self):
+        with socket.socket() as free:
+            free.bind(("localhost", 0))
+            port = free.getsockname()[1]
+        with tempfile.TemporaryDirectory() as folder:
+            bag = os.path.join(folder, "arm.bag")
+            done = subprocess.run(["roslaunch", "-p", str(port), source_file("examples/arm/arm.launch"), f"record:={bag}",
+                                   "set:=[time.end=1.3]"], capture_output=True, text=True, check=False, timeout=150,
+                                  env=dict(os.environ, ROS_MASTER_URI=f"http://localhost:{port}/"))
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with mpm_ros.Recording(bag) as recording:
+                contact, motion = recording.contact_forces("scoop"), recording.motion("scoop")
+        lines = re.findall(r"t = ([0-9.]+) s: force ([0-9.]+) N; .*swing (\S+), shoulder (\S+),", done.stdout)
+        self.assertGreater(len(lines), 3, done.stdout)
+        pressed = 0
+        for time, force, swing, _ in ([float(word) for word in line] for line in lines):
+            row = np.argmin(np.abs(contact["time"] - time))
+            self.assertAlmostEqual(np.linalg.norm(contact["force"][row]), force, delta=0.06)
+            # About the swing, which is the world's z axis. The arm is ahead of the simulated blade by some 20 ms.
+            moment = contact["torque"][row] + np.cross(motion["position"][row], contact["force"][row])
+            self.assertAlmostEqual(swing, moment[2], delta=0.02 + 0.03 * force)
+            pressed += force > 10
+        self.assertGreater(pressed, 0, done.stdout)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ mpm::SolverState run(const std::string& name, const std::vector<std::string>& ov
   const auto end = static_cast<std::int64_t>(scene.definition.time.end * 1e9 + 0.5);
   EXPECT_GT(end, 0) << name << " has no end";
   double worst = 0.0;
-  while (simulation.time() < end && simulation.state().steps < most_steps) {
+  while (simulation.time() < end && simulation.state().step.steps < most_steps) {
     simulation.advance();
     if (most_steps < kAll || simulation.time() % (10 * simulation.sync_period()) == 0) {
       worst = std::max(worst, simulation.state().audit.residual);

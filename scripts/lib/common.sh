@@ -5,6 +5,7 @@ build="$root/build"
 # shellcheck disable=SC2034 # of those who source this
 build_mpi="$root/build_mpi"
 export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
+export PYTHONDONTWRITEBYTECODE=1 LC_ALL=C.UTF-8
 
 # configure FOLDER [cmake options]: runs cmake, quiet unless it fails. A configured folder keeps its generator, and whether
 # the files of a folder of sources are compiled as one.

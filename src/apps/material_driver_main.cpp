@@ -11,6 +11,7 @@
 #include "mpm/math/files_in_use.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/scene/material_driver.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
 
 namespace {
 
@@ -52,6 +53,7 @@ int drive_to(const std::string& csv, const mpm::MaterialDriverOptions& options) 
 }  // namespace
 
 int main(int argc, char** argv) {
+  mpm_ros::ignore_file_limit();
   mpm::MaterialDriverOptions options;
   std::string csv;
   CLI::App app(

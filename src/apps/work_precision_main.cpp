@@ -11,6 +11,7 @@
 #include "mpm/study/work_precision.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/report/report_plots.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
 
 namespace {
 
@@ -23,6 +24,7 @@ std::string suites_text() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mpm_ros::ignore_file_limit();
   mpm::study::StudyOptions options;
   options.folder = "work_precision";
   bool quick = false, charts = true;

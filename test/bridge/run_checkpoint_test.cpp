@@ -12,6 +12,7 @@
 #include "mpm_ros/command/command_limiter.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/command/turning_twists.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run.hpp"
 #include "mpm_ros/run/run_scene.hpp"
@@ -260,6 +261,7 @@ struct Pressed {
     queue.serialise(archive);
     watch.serialise(archive);
     limiter.serialise(archive);
+    turning.serialise(archive);
   }
   void go(int periods) {
     for (int n = 0; n < periods && !run->ended(); ++n) {
@@ -284,6 +286,7 @@ struct Pressed {
   CommandWatch watch{30'000'000};
   NodeHealth health;
   CommandLimiter limiter{{}, health};
+  TurningTwists turning;
   std::unique_ptr<mpm_ros::Run> run;
   int silences = 0;
 };

@@ -20,7 +20,7 @@ struct Choice {
 
 bool chosen(const testing::TestInfo& test, const Choice& choice) {
   if (!choice.file.empty() && std::filesystem::path(test.file()).filename() != choice.file + "_test.cpp") return false;
-  const bool is_long = long_test(test.test_suite_name(), test.name());
+  const bool is_long = long_test(test.test_suite_name(), test.name(), test.file());
   if (choice.only_long) return is_long;
   return !is_long || std::getenv("MPM_FULL") != nullptr;
 }
@@ -56,7 +56,13 @@ int choose_tests(int argc, char** argv) {
   }
   if (GTEST_FLAG_GET(filter) != "*") return 0;
   const std::string filter = filter_of(choice);
-  if (filter.empty()) return kSkipped;
+  if (filter.empty()) {
+    if (!choice.file.empty() && filter_of({choice.file, true}).empty()) {
+      std::fprintf(stderr, "no case in %s_test.cpp\n", choice.file.c_str());
+      return 2;
+    }
+    return kSkipped;
+  }
   GTEST_FLAG_SET(filter, filter);
   return 0;
 }

@@ -126,7 +126,7 @@ TEST(CheckpointNode, WrongFilesAreRefusedAndTheRunGoesOn) {
   SimulatorProcess simulator(lockstep({}));
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   ASSERT_TRUE(simulator.step(3).success);
-  EXPECT_NE(call(simulator, "load_checkpoint", folder.file("none.h5")).message.find("No such file"), std::string::npos);
+  EXPECT_NE(call(simulator, "load_checkpoint", folder.file("none.h5")).message.find("no such file"), std::string::npos);
   std::ofstream(folder.file("text.h5")) << "no checkpoint\n";
   const Checkpoint::Response refused = call(simulator, "load_checkpoint", folder.file("text.h5"));
   EXPECT_FALSE(refused.success);

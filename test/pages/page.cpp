@@ -83,7 +83,7 @@ Page::Page(const std::string& chapter, std::string name, const std::string& titl
   json["test"] = suite + "." + test->name();
   if (suite.rfind("Full", 0) == 0) name_ = "full_" + name_;
   json["name"] = name_;
-  long_ = long_test(suite, test->name());
+  long_ = long_test(suite, test->name(), test->file());
 }
 
 Page::~Page() {

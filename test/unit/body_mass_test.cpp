@@ -94,6 +94,47 @@ TEST(BodyMass, LeavesWhatLiesOnTheGridsLatticeAsItIs) {
       << text;
 }
 
+// With one particle a cell its domain, of half a spacing to either side, may not be wider than a cell: bodies of 1.45
+// and 10.4 cells get 2 and 11 particles, where the nearest numbers are 1 and 10.
+TEST(BodyMass, OfOneParticleACellIsInDomainsThatFit) {
+  const std::vector<std::pair<std::string, double>> heights = {{"0.0145", 0.0145 / 2}, {"0.104", 0.104 / 11}};
+  for (const auto& [height, spacing] : heights) {
+    const Scene scene = parse_scene(layer("0", height), "mass.yaml", {"method.particles_per_cell=1"});
+    const SimulationDefinition built = build(scene);
+    ASSERT_TRUE(built.bodies[0].lattice);
+    EXPECT_NEAR(built.bodies[0].lattice->spacing.z(), spacing, 1e-12);
+    SimulationOptions options;
+    options.threads = 1;
+    std::vector<double> masses;
+    Simulation(built, options).particle_field("mass", masses);
+    EXPECT_NEAR(std::accumulate(masses.begin(), masses.end(), 0.0), 1000 * 0.2 * std::stod(height), 1e-9);
+  }
+}
+
+// Columns of 0.1426 m in 29 parts are none of the bed's, of 0.005 m: the run tells that the start leaves their weight
+// out. A body on the same columns is of no concern, nor one in the air.
+TEST(BodyMass, OfOtherColumnsIsLeftOutOfAGeostaticStartAloud) {
+  const auto warnings = [](const std::string& low, const std::string& high) {
+    const std::string upper = ", initial: geostatic}, {name: top, material: m, shape: {box: {min: [" + low +
+                              "], max: [" + high + "]}}, initial: geostatic";
+    const std::string rest = "gravity: [0, -10]\nboundaries: {z_min: slip, x_min: slip, x_max: slip}\n";
+    const std::string text = scene_of("plane_strain", kLayerGrid, "box: {min: [0, 0], max: [0.2, 0.1]}", rest, upper);
+    SimulationOptions options;
+    options.threads = 1;
+    options.settle = false;
+    std::vector<std::string> found;
+    for (const std::string& warning : Simulation(build(parse_scene(text, "mass.yaml")), options).warnings()) {
+      if (warning.find("columns") != std::string::npos) found.push_back(warning);
+    }
+    return found;
+  };
+  const std::vector<std::string> found = warnings("0.0312, 0.1", "0.1738, 0.15");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].find("body 'top' starts geostatic on body 'b', "), 0U) << found[0];
+  EXPECT_TRUE(warnings("0.03, 0.1", "0.175, 0.15").empty());
+  EXPECT_TRUE(warnings("0.0312, 0.2", "0.1738, 0.25").empty());
+}
+
 // The floor carries the weight, and a traction on the top the force of its whole width: the particles' domains reach
 // from face to face of the body. It starts geostatic, and so stands still.
 TEST(BodyMass, WeighsOnTheFloorWhatItIs) {

@@ -79,7 +79,8 @@ TEST(SceneBoundaries, AreRefusedWhenWrong) {
   expect_refused("boundaries: {x: slip}", at + ".x: 'slip' is not known; write one of periodic");
   expect_refused("boundaries: {y: periodic}", at + ".y: a planar scene has no face along y; leave it out");
   expect_refused("boundaries: {x: periodic, x_min: slip}", at + ".x_min: x is periodic; leave one of the two out");
-  expect_refused("boundaries: {x_min: periodic}", at + ".x_min: 'periodic' is not ");
+  expect_refused("boundaries: {x_min: periodic}",
+                 at + ".x_min: 'periodic' is no word here; an axis is periodic, not a face");
   expect_refused("boundaries: {x_min: {absorbing: {hold: always}}}",
                  at + ".x_min.absorbing.hold: 'always' is not known; write one of none, start");
   expect_refused("boundaries: {z_max: symetry}", at + ".z_max: 'symetry' is not known; did you mean 'symmetry'?");

@@ -87,7 +87,9 @@ TEST(SceneInitial, CutOutLeavesRoomForTools) {
   expect_refused(scene("cut_out: [ball]"), "bad.yaml:5: bodies.bed.cut_out: no rigid body 'ball'; the scene has none");
   expect_refused(
       scene("cut_out: all") + "rigid_bodies: [{name: wall, shape: {box: {size: [4, 4]}}, pose: {position: [0, 0]}}]\n",
-      "bad.yaml:5: bodies.bed.cut_out: nothing is left of body 'bed'");
+      "bad.yaml:5: bodies.bed.cut_out: rigid body 'wall' is 4 m long in a grid of 1 m: check its unit (scale); nothing "
+      "is left of body "
+      "'bed'");
 }
 
 TEST(SceneInitial, IsRefusedWhenWrong) {

@@ -1,4 +1,6 @@
 // Planes, capsules and height fields in scenes: their meaning in each geometry, and refusals.
+#include <sys/stat.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -165,6 +165,13 @@ TEST(Allocation, StepsOfEveryLawDoNotAllocate) {
   }
 }
 
+// The correction of a fluid's volume acts in every fourth step, here in the one that is counted first.
+TEST(Allocation, TheFirstCorrectionOfAVolumeDoesNotAllocate) {
+  const mpm::MaterialDefinition water{"water", 1000.0, mpm::NewtonianFluidDefinition{1e6, 7.0, 50.0, true}};
+  EXPECT_EQ(allocations_of_a_period(1, water, {}, mpm::best_isa()),
+            allocations_of_a_period(16, water, {}, mpm::best_isa()));
+}
+
 // This holds for every shape function, update and transfer: in plane strain, which has them all, and about an axis.
 TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
   using mpm::TransferKind;

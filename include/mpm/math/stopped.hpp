@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "mpm/math/error.hpp"
 
 namespace mpm {
 
-/// The run was asked to stop (SimulationOptions::stop) while it was built or settled, or within a sync period: it
-/// cannot go on.
+/// The run was asked to stop (SimulationOptions::stop or interrupt) while it was built or settled, or within a sync
+/// period: it cannot go on.
 class StoppedError : public Error {
  public:
   using Error::Error;

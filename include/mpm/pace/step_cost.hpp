@@ -28,17 +28,25 @@ double steady_seconds();
 
 class StepTimer {
  public:
-  /// Times for `budget` [s] of `clock`, and one step at least. `stop`: as SimulationOptions::stop has it; may be empty.
+  /// Times for `budget` [s] of `clock`, and one step at least unless over_budget() ends it. `stop`: as
+  /// SimulationOptions::stop has it; may be empty.
   explicit StepTimer(double budget, std::function<bool()> stop = {}, WallClock clock = steady_seconds);
 
   /// To be asked as SimulationOptions::stop of the simulation that is timed.
   bool after_step();
+  /// To be asked as its SimulationOptions::interrupt, so that a step of many stages ends, too: with the budget, and the
+  /// first one, without which nothing is known, with ten times that.
+  bool over_budget() const {
+    return (timing_ && clock_() - begun_ >= (steps_ > 0 ? 1.0 : kFirstStep) * budget_) || stopped();
+  }
   /// Advances the simulation until the budget is spent, the scene has ended, or it fails; it cannot go on afterwards.
   /// The first step allocates, and counts only where there is no other. Returns nothing when not one step was made.
   /// @throws StoppedError when `stop` was true
   std::optional<StepCost> time(Simulation& simulation);
 
  private:
+  static constexpr double kFirstStep = 10.0;  ///< budgets
+
   void count();
   bool stopped() const { return stop_ && stop_(); }
 

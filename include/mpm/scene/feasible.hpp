@@ -19,16 +19,6 @@ WaveStep wave_step(const Scene& scene);
 /// Number of particles that a scene will have, about.
 double expected_particles(const Scene& scene);
 
-/// How much of a step the transport of a quantity takes.
-struct TransportStages {
-  const char* quantity = "";
-  std::string material;      ///< in which it spreads fastest
-  double diffusivity = 0.0;  ///< there [m^2/s]
-  int stages = 1;            ///< of a step (transport/stages.hpp)
-};
-/// Of each quantity that the scene transports.
-std::vector<TransportStages> transport_stages(const Scene& scene);
-
 /// Refuses too many particles, before any is made. `part`: of the particles, what this machine has, where several share
 /// them. @throws SceneError with their number and memory
 void check_particles(const Scene& scene, double part = 1.0);

@@ -69,7 +69,8 @@ using SceneDifference = std::function<std::string(const std::string& recorded)>;
 /// `scene_text`: the scene from which `simulation` was built. `difference`: what counts as another one; any other text,
 /// unless it is given. Metrics that the recorded run had go on, others begin. @throws CheckpointError for a file that
 /// is not a checkpoint, is damaged, belongs to another version, scene, instruction set or precision, or to a run that
-/// failed. If the file is damaged the simulation cannot go on; otherwise it is not changed.
+/// failed, or lacks what a metric of this run needs. If the file is damaged or a metric is refused, the simulation must
+/// not go on; otherwise it is not changed.
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
                                 const SerialiseMore& more = {}, const SceneDifference& difference = {});
 

@@ -41,6 +41,8 @@ class GlobalQuantities {
   /// "sxx of soil", "kinetic energy", …
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<std::string>& units() const { return units_; }
+  /// The particle fields that they are computed from.
+  const std::vector<std::string>& fields() const { return fields_; }
   /// The values at the simulation's present time. A contact force is the mean since the last call, and 0 in the first.
   const std::vector<double>& read();
   /// Writes or reads the begin of the averages of forces, for checkpoints. A list of other quantities is not resumed.

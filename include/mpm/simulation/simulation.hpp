@@ -62,7 +62,8 @@ struct SimulationOptions {
   /// result depends on particles is collective, and particle fields are given to the first rank alone. A definition
   /// that has been built for ranks has each rank's own particles; of any other every rank has all, and leaves its own.
   std::shared_ptr<Communicator> ranks = {};
-  /// Asked, often, while the run is put together and within a step of many stages; true: see StoppedError.
+  /// Asked where `stop` is not: often while the run is put together, and between the stages of a step that has many;
+  /// true: it ends at once, see StoppedError.
   std::function<bool()> interrupt = {};
 };
 

@@ -20,7 +20,7 @@ class FramePoses {
   FramePoses() = default;
   /// Waits for the frames of the scene with the changes `set`, without a limit, and says so. Publishes meanwhile /clock
   /// at its start, where the node is to publish it. @throws mpm::Error; ParameterError or BagError: a recording that is
-  /// to be repeated cannot be read, or holds no such pose; mpm::StoppedError: a stop was asked for first
+  /// to be repeated cannot be read; mpm::StoppedError: a stop was asked for first
   FramePoses(const ros::NodeHandle& node, const NodeParameters& parameters, const std::vector<std::string>& set);
 
   /// Whether there are such bodies.
@@ -30,7 +30,8 @@ class FramePoses {
   /// stay.
   template <typename Look>
   void look_again(const mpm::Scene& scene, Look look);
-  /// Those that the text of a recorded run has.
+  /// Those that the text of a recorded run has; a body without one there begins where its scene has it, as that run
+  /// did.
   void take_recorded(const std::string& scene_text);
 
  private:

@@ -88,7 +88,7 @@ class RunOutputs {
   /// Of clouds and markers.
   const LocalFrame& local_frame() const { return local_; }
   /// After a checkpoint was loaded. @throws mpm::CheckpointError, which names it, where the particles do not remember
-  /// what the chosen fields need
+  /// what the chosen fields and global quantities need
   void check_fields(const std::string& checkpoint) const;
 
  private:

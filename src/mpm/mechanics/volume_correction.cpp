@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "mpm/math/dimension.hpp"
+#include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kTurnOf = 6.283185307179586;  ///< a ring's circumference over its radius
 constexpr double kAlmostAll = 1.0 - 1e-6;  ///< of the weights: above what rounding leaves of all in single precision
 constexpr double kLeastShare = 1e-3;       ///< of a cell: less is a node beyond the domain
 
@@ -72,7 +72,7 @@ double VolumeCorrection::share_along(const Grid& grid, int axis, int node) const
     // Of the hat function: integral of r over a cell's half, in cells.
     const double radius = node + layout.origin(0) * layout.inverse_cell(0);
     const double inner = node > 0 ? radius / 2 - 1.0 / 6.0 : 0.0, outer = node < last ? radius / 2 + 1.0 / 6.0 : 0.0;
-    return kTurnOf * layout.cell(0) * (inner + outer);
+    return kTurn * layout.cell(0) * (inner + outer);
   }
   const double beyond = beyond_next(shape_);
   const bool folds = grid.has_wall[2 * axis + (node > last - node ? 1 : 0)];
@@ -182,18 +182,20 @@ double VolumeCorrection::correct(const Body& body, const Numbers& of) {
 
 void VolumeCorrection::momentum_gathered(StepContext& context) {
   waited_ += context.dt;
-  if (++steps_ % kEvery != 0) return;
+  const bool acts = ++steps_ % kEvery == 0, first = volume_.empty();
+  // The first step of a run, whatever its number, makes room for what the others need: these do not allocate.
+  if (!acts && !first) return;
   make_room();
   with_geometry(geometry_, [&](auto kind) {
     using Geometry = decltype(kind);
     find_volumes<Geometry>();
     find_fullness(context.fields);
     gather(context.fields);
-    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    for (std::size_t s = 0; s < bodies_.size() && acts; ++s) {
       if (bodies_[s].fluid != nullptr) taken_ += correct<Geometry>(bodies_[s], numbers_[s]);
     }
   });
-  waited_ = 0.0;
+  if (acts) waited_ = 0.0;
 }
 
 }  // namespace mpm

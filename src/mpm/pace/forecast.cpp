@@ -15,7 +15,7 @@ std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, 
   options.isa = isa;
   options.settle = false;
   options.stop = [&timer] { return timer.after_step(); };
-  options.interrupt = stop;
+  options.interrupt = [&timer] { return timer.over_budget(); };
   Forecast forecast;
   forecast.simulated = definition.time.end;
   forecast.sleeps = definition.sleep.has_value();

@@ -30,21 +30,23 @@ Lattice grid_lattice(const Scene& scene, const Box& bounds, int axis) {
           static_cast<std::int64_t>(std::min(all - 1.0, last)), false};
 }
 
-/// Between two faces as many particles as come nearest to the grid's spacing.
-Lattice between(double low, double high, double spacing) {
-  const double count = std::max(1.0, std::round((high - low) / spacing));
+/// Between two faces as many particles as come nearest to the grid's spacing; more where their domains would be wider
+/// than a cell, which the shape functions do not allow.
+Lattice between(double low, double high, double spacing, double cell) {
+  double count = std::max(1.0, std::round((high - low) / spacing));
+  if ((high - low) / count > cell) count = std::ceil((high - low) / spacing - kOnPlane);
   return {low, (high - low) / count, 0, static_cast<std::int64_t>(count) - 1, true};
 }
 
 /// Along z of the ground below a terrain: up to its mean height where that is nearly the same everywhere, for then all
 /// columns would be too high or too low alike; else what is cut off here is added there.
-Lattice terrain_lattice(const Region& region, const Lattice& grid) {
+Lattice terrain_lattice(const Region& region, const Lattice& grid, double cell) {
   const Box bounds = region.bounds();
   const double depth = bounds.max.z() - bounds.min.z(), mean = depth * region.terrain->fullness();
   const bool level = depth - mean < 0.5 * grid.spacing;
   const bool at_bottom = on_plane(bounds.min.z(), grid.origin, grid.spacing);
   if (at_bottom && (!level || on_plane(bounds.min.z() + mean, grid.origin, grid.spacing))) return grid;
-  Lattice own = between(bounds.min.z(), bounds.min.z() + mean, grid.spacing);
+  Lattice own = between(bounds.min.z(), bounds.min.z() + mean, grid.spacing, cell);
   if (!level) own.spacing = grid.spacing;
   own.last = static_cast<std::int64_t>(std::ceil(depth / own.spacing));
   return own;
@@ -85,8 +87,9 @@ std::array<Lattice, 3> body_lattice(const BodyDefinition& body, const Scene& sce
   for (const int axis : axes_of(scene)) {
     Lattice& along = lattices[axis];
     along = grid_lattice(scene, bounds, axis);
+    const double cell = scene.definition.grid.cell[axis];
     if (region.kind == Region::Kind::terrain && axis == 2) {
-      along = terrain_lattice(region, along);
+      along = terrain_lattice(region, along, cell);
       continue;
     }
     const bool flat_ends = region.kind == Region::Kind::box || region.kind == Region::Kind::terrain ||
@@ -95,7 +98,7 @@ std::array<Lattice, 3> body_lattice(const BodyDefinition& body, const Scene& sce
     const double low = bounds.min[axis], high = bounds.max[axis];
     if (!flat_ends || (on_plane(low, along.origin, along.spacing) && on_plane(high, along.origin, along.spacing)))
       continue;
-    along = between(low, high, along.spacing);
+    along = between(low, high, along.spacing, cell);
   }
   return lattices;
 }

@@ -9,6 +9,7 @@
 #include "mpm/scene/sections.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/method_text.hpp"
+#include "mpm/simulation/transport_work.hpp"
 
 namespace mpm {
 namespace {
@@ -106,10 +107,12 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
   }
   const double steps = std::ceil(sync / limit);
   text += fmt::format("time step: at most {:.4g} s, set by {}\n", limit, reason);
-  for (const TransportStages& transport : transport_stages(scene)) {
-    text += fmt::format("transport of {}: {:.3g} m^2/s at most{}, {} stage{} in each step\n", transport.quantity,
+  std::vector<std::string> materials;
+  for (const DeformableBody& body : built.bodies) materials.push_back(body.material);
+  for (const TransportWork& transport : transport_work(built, materials)) {
+    text += fmt::format("transport of {}: {:.3g} m^2/s at most{}, {:.0f} stage{} in each step\n", transport.quantity,
                         transport.diffusivity, transport.material.empty() ? "" : " in " + transport.material,
-                        transport.stages, transport.stages == 1 ? "" : "s");
+                        transport.stages, transport.stages == 1.0 ? "" : "s");
   }
   text += fmt::format("sync period: {:.9g} s, {:.0f} step{} each while the material is unstrained\n", sync, steps,
                       steps == 1.0 ? "" : "s");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +13,6 @@
 #include "mpm/scene/terrain.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/simulation/transport_work.hpp"
-#include "mpm/transport/stages.hpp"
 
 namespace mpm {
 namespace {
@@ -66,40 +64,6 @@ WaveStep wave_step(const Scene& scene) {
   for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
   step.dt = definition.time.cfl * cell / step.speed;
   return step;
-}
-
-std::vector<TransportStages> transport_stages(const Scene& scene) {
-  const SimulationDefinition& definition = scene.definition;
-  double cell = std::numeric_limits<double>::infinity();
-  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
-  const double dt = std::min(wave_step(scene).dt, definition.time.step.value_or(kInfinity));
-  std::vector<TransportStages> all;
-  for (const QuantityDefinition& quantity : definition.transport.quantities) {
-    TransportStages found;
-    found.quantity = kQuantityNames[static_cast<std::size_t>(quantity.quantity)];
-    for (std::size_t m = 0; m < quantity.materials.size(); ++m) {
-      const MaterialDefinition& material = definition.materials[m];
-      const auto is_used = [&](const BodyDefinition& body) { return body.material == material.name; };
-      if (std::none_of(scene.bodies.begin(), scene.bodies.end(), is_used)) continue;
-      const TransportMaterial& own = quantity.materials[m];
-      const double by_volume = quantity.quantity == Transported::temperature ? material.density : 1.0;
-      double turn = 1.0;
-      if (own.anisotropy) {
-        const Symmetric3<double>& k = *own.anisotropy;
-        Mat3 tensor;
-        tensor << k.xx, k.xy, k.xz, k.xy, k.yy, k.yz, k.xz, k.yz, k.zz;
-        turn = Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-      }
-      const double diffusivity = own.conductivity.most() * turn / (own.capacity.least() * by_volume);
-      if (!(diffusivity > found.diffusivity)) continue;
-      found.diffusivity = diffusivity;
-      found.material = material.name;
-      constexpr double kMostRatio = 1e12;  // beyond, a number of stages is no number any more
-      found.stages = stages_for(std::min(kMostRatio, dt * 4.0 * diffusivity / (cell * cell)));
-    }
-    all.push_back(std::move(found));
-  }
-  return all;
 }
 
 double expected_particles(const Scene& scene) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 #include "height_file.hpp"
@@ -84,10 +83,7 @@ HeightTable read_table(const Value& value, bool from_file, const HeightLimit& li
       std::istringstream text(value.text());
       return read_height_text(text, "its text", limit);
     }
-    std::string path = value.text();
-    if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
-      path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
-    return read_height_file(resolve_resource(path), limit);
+    return read_height_file(resolve_resource(path_from_scene(value)), limit);
   } catch (const Error& error) {
     value.fail(error.what());
   }

@@ -22,8 +22,7 @@ std::unique_ptr<Surface> read_mesh(const Value& value, const SimulationDefinitio
   if (planar(geometry))
     value.fail(
         "a planar scene has no mesh; write polygon, box, sphere, cylinder, capsule, plane or height_field, each "
-        "without "
-        "end along y");
+        "without end along y");
   if (geometry == GeometryKind::line) value.fail("a line has no mesh; write box, sphere or plane");
   const Map map(value, {"file", "scale"});
   const Value file = map.at("file");

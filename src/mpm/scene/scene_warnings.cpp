@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "mpm/material/material_point.hpp"
-#include "mpm/scene/feasible.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -16,7 +15,6 @@ constexpr double kMostWeightStrain = 0.1;  ///< of a body under its own weight
 constexpr double kLightest = 5.0;          ///< [kg/m^3]; solids and liquids are heavier, foams among them
 constexpr double kHeaviest = 23000.0;      ///< [kg/m^3]; osmium has 22,590
 constexpr int kTimesOfMotion = 64;         ///< at which a tool's velocity is looked at
-constexpr int kManyStages = 15;            ///< of transport in a step: a pass over the grid each
 constexpr double kRoundOff = 1e-9;
 
 /// Laws whose stiffness is a constant of the material, and resists volume changes.
@@ -99,22 +97,6 @@ void look_at_speeds(const Scene& scene, std::vector<std::string>& warnings) {
   }
 }
 
-/// Transport that sets the pace of the run.
-void look_at_transport(const Scene& scene, std::vector<std::string>& warnings) {
-  for (const TransportStages& transport : transport_stages(scene)) {
-    if (transport.stages < kManyStages) continue;
-    const bool water = transport.quantity == std::string("pore_pressure");
-    warnings.push_back(fmt::format(
-        "transport.{} sets the pace: it spreads with {:.3g} m^2/s in '{}', and takes {} stages on the grid in each "
-        "step; "
-        "check {}, or use a larger grid.cell",
-        transport.quantity, transport.diffusivity, transport.material, transport.stages,
-        water ? "permeability, which is an area in m^2 (of sand some 1e-11; a conductivity k in m/s is k viscosity / "
-                "(fluid density x gravity), k = 1e-4 m/s some 1e-11 m^2), viscosity and storage"
-              : "the units of its constants"));
-  }
-}
-
 }  // namespace
 
 SlowestWave slowest_wave(const Scene& scene) {
@@ -142,7 +124,6 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
     for (const MaterialDefinition& material : scene.definition.materials) look_at_density(material, warnings);
   }
   look_at_speeds(scene, warnings);
-  look_at_transport(scene, warnings);
   return warnings;
 }
 

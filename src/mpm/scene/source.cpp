@@ -214,7 +214,8 @@ void Source::apply(const std::string& text) {
         std::vector<std::string> names;
         for (const auto& entry : node) names.push_back(entry.first.Scalar());
         throw SceneError(
-            fmt::format("{}: constants: the scene has no constant '{}'; {}", label, part, suggest(part, names)));
+            fmt::format("{}: constants: the scene has no constant '{}'; {}", label, part,
+                        names.empty() ? "write it under the scene's 'constants' first" : suggest(part, names)));
       }
       if (last) {
         node[part] = value;

@@ -1,5 +1,5 @@
 // rigid_bodies.<name>.shape.urdf: the collision geometry of a robot's link.
-#include <filesystem>
+#include <string>
 
 #include "mpm/rigid/urdf.hpp"
 #include "mpm/scene/sections.hpp"
@@ -14,9 +14,7 @@ std::unique_ptr<Surface> read_urdf_link(const Value& value, const SimulationDefi
                  {"scale", "a URDF is in metres"}});
   const Value file = map.at("file");
   const std::string link = map.at("link").text();
-  std::string path = file.text();
-  if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
-    path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
+  const std::string path = path_from_scene(file);
   try {
     return load_urdf_link(path, link, thinnest_mesh(definition));
   } catch (const RigidError& error) {

@@ -254,7 +254,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
-  if (geostatic) add_geostatic_stress(s.definition, s.ranks.get());
+  if (geostatic) add_geostatic_stress(s.definition, s.ranks.get(), s.warnings);
   StopCheck check_stop(s.ranks ? nullptr : s.interrupt, "the run was put together");  // ranks stop together only
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
@@ -305,9 +305,15 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.foreign_modules = !options.modules.empty();
   s.rates.resize(definition.metrics.size());
   std::vector<double> unused;
+  std::vector<NamedNumber> reported;
+  const auto names_number = [](const MetricDefinition& metric) { return !metric.number.empty(); };
+  if (std::any_of(definition.metrics.begin(), definition.metrics.end(), names_number)) reported = numbers();
   for (const MetricDefinition& metric : definition.metrics) {
     if (is_wrench(metric)) s.wrenches.resize(s.bodies.size());
-    if (!metric.number.empty()) statistic_of(metric, unused);  // throws where the run has no such number
+    const auto is_it = [&](const NamedNumber& number) { return number.name == metric.number; };
+    if (names_number(metric) && std::none_of(reported.begin(), reported.end(), is_it)) {
+      statistic_of(metric, unused);  // throws, for the run has no such number
+    }
     if (find_body(metric.body) >= 0 || !metric.number.empty() || !metric.formula.empty()) continue;
     if (needs_start({metric.field})) keep_start();
     s.check_field(metric.field);

@@ -169,7 +169,11 @@ CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation,
   const std::string& recorded = about.label.scene_text;
   const auto other_text = [&] { return recorded == scene_text ? "" : text_difference(scene_text, recorded); };
   check(path, about, about_of(simulation), difference ? difference(recorded) : other_text());
-  serialise_run(file, simulation, more);
+  try {
+    serialise_run(file, simulation, more);
+  } catch (const DefinitionError& error) {
+    throw CheckpointError(fmt::format("checkpoint {}: {}", path, error.what()));
+  }
   if (file.merging()) return about;  // in another order, which has other hashes
   if (simulation.memory_hash() != about.checksum || simulation.state_hash() != about.state_hash) {
     throw CheckpointError(

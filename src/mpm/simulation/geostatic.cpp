@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "initial.hpp"
 #include "mpm/ranks/lists.hpp"

@@ -4,9 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "initial.hpp"
 #include "mpm/ranks/agree.hpp"
@@ -44,7 +47,7 @@ int axis_of(const Vec3& gravity) {
 }
 
 /// The lattice of a body's particles, and the number of those on which bodies before it have theirs: bodies whose
-/// columns are the same across gravity are of one family.
+/// columns are the same across gravity are of one family, wherever their lattices begin.
 class ColumnFamilies {
  public:
   ColumnFamilies(const SimulationDefinition& definition, int up) : up_(up) {
@@ -64,10 +67,11 @@ class ColumnFamilies {
     const auto same = [&](const ParticleLattice& other) {
       for (int axis = 0; axis < 3; ++axis) {
         if (!is_across(axis)) continue;
-        const double slack = 1e-6 * lattice.spacing[axis];
-        if (std::abs(other.origin[axis] - lattice.origin[axis]) > slack ||
-            std::abs(other.spacing[axis] - lattice.spacing[axis]) > 1e-3 * slack)
+        const double spacing = lattice.spacing[axis];
+        const double apart = (other.origin[axis] - lattice.origin[axis]) / spacing;
+        if (std::abs(apart - std::round(apart)) > 1e-6 || std::abs(other.spacing[axis] - spacing) > 1e-9 * spacing) {
           return false;
+        }
       }
       return true;
     };
@@ -76,6 +80,8 @@ class ColumnFamilies {
     families_.push_back(lattice);
     return static_cast<int>(families_.size()) - 1;
   }
+  /// That by which the columns of a family are counted.
+  const ParticleLattice& lattice_of(int family) const { return families_[static_cast<std::size_t>(family)]; }
   bool is_across(int axis) const { return axis != up_ && !(flat_ && axis == 1); }
 
  private:
@@ -155,6 +161,51 @@ double least_of(const std::vector<double>& values, Communicator* ranks) {
   return -least;
 }
 
+/// Where the centres of a body's particles lie, on all ranks.
+struct Extent {
+  std::string body;
+  int family;
+  Vec3 min, max;
+};
+
+Extent extent_of(const DeformableBody& body, int family, Communicator* ranks) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::array<double, 6> ends = {kNone, kNone, kNone, kNone, kNone, kNone};
+  for (const Vec3& place : body.positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      ends[axis] = std::max(ends[axis], -place[axis]);
+      ends[3 + axis] = std::max(ends[3 + axis], place[axis]);
+    }
+  }
+  if (ranks != nullptr) ranks->largest(ends.data(), static_cast<int>(ends.size()));
+  return {body.name, family, {-ends[0], -ends[1], -ends[2]}, {ends[3], ends[4], ends[5]}};
+}
+
+/// Of bodies of different columns of which one lies on the other: the stresses leave out what it weighs.
+void warn_of_other_columns(const std::vector<Extent>& extents, const ColumnFamilies& families, int up, double down,
+                           double gap, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    for (std::size_t j = i + 1; j < extents.size(); ++j) {
+      const Extent &one = extents[i], &other = extents[j];
+      bool meet = one.family != other.family;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double slack = axis == up ? gap : 0.0;
+        if (axis != up && !families.is_across(axis)) continue;
+        meet = meet && std::min(one.max[axis], other.max[axis]) + slack >= std::max(one.min[axis], other.min[axis]);
+      }
+      if (!meet) continue;
+      const auto depth = [&](const Extent& body) { return down * (body.min[up] + body.max[up]); };
+      const bool first = depth(one) < depth(other);
+      const std::string &upper = (first ? one : other).body, &lower = (first ? other : one).body;
+      warnings.push_back(
+          fmt::format("body '{}' starts geostatic on body '{}', and their particles do not stand in the same columns: "
+                      "the stress that '{}' starts under leaves out the weight of '{}', which settling alone finds; "
+                      "give both faces across gravity that lie on the grid's lattice, or the same faces",
+                      upper, lower, lower, upper));
+    }
+  }
+}
+
 /// Ratio of horizontal to vertical stress: as asked, or the material's own, raised to what it can carry.
 double ratio_at_rest(const DeformableBody& body, const MaterialDefinition& material, const InitialStates& states,
                      double deepest, const std::function<Symmetric3<double>(double, double)>& stress) {
@@ -177,7 +228,7 @@ double ratio_at_rest(const DeformableBody& body, const MaterialDefinition& mater
 
 }  // namespace
 
-void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks) {
+void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks, std::vector<std::string>& warnings) {
   if (const std::string reason = refused_geostatic(definition.geometry); !reason.empty()) {
     throw DefinitionError("a geostatic start is not possible: " + reason);
   }
@@ -187,22 +238,26 @@ void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks)
   ColumnFamilies families(definition, up);
   double gap = 0.0;
   std::vector<Part> parts;
+  std::vector<Extent> extents;
   for (const DeformableBody& body : definition.bodies) {
     if (!body.geostatic) continue;
     const ParticleLattice lattice = families.lattice_of(body);
     const int family = families.family_of(lattice);
+    const ParticleLattice& columns = families.lattice_of(family);
     const double area = lattice.spacing.prod() / lattice.spacing[up];
     const double weight = find_material(definition, body).density * body.particle_volume * g;
     gap = std::max(gap, kGap * lattice.spacing[up]);
     for (const Vec3& place : body.positions) {
-      const Vec3 cells = (place - lattice.origin).cwiseQuotient(lattice.spacing);
+      const Vec3 cells = (place - columns.origin).cwiseQuotient(columns.spacing);
       std::int64_t column = 0;
       for (int axis = 0; axis < 3; ++axis) {
         if (families.is_across(axis)) column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
       }
       parts.push_back({family, column, down * place[up], weight, area, static_cast<std::uint32_t>(parts.size())});
     }
+    extents.push_back(extent_of(body, family, ranks));
   }
+  warn_of_other_columns(extents, families, up, down, gap, warnings);
   std::vector<double> own =
       ranks == nullptr ? vertical_stresses(std::move(parts), gap) : vertical_stresses(*ranks, parts, gap);
   std::vector<std::vector<double>> vertical(definition.bodies.size());

@@ -21,7 +21,8 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
 
 /// Gives the bodies that start geostatic the stress of the weight above them: vertical from the columns of particles
 /// over each particle down to its centre, whatever geostatic bodies they belong to, horizontal by k0. A gap in a column
-/// carries nothing. `ranks`: null for a process that is alone. Collective. @throws DefinitionError
-void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks);
+/// carries nothing, and nor do bodies whose columns are not the same: adds to `warnings` where these lie on each other,
+/// for settling alone finds that weight. `ranks`: null for a process that is alone. Collective. @throws DefinitionError
+void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks, std::vector<std::string>& warnings);
 
 }  // namespace mpm

@@ -119,15 +119,18 @@ const Field kFields[] = {
 
 /// What float32 leaves of a place: together they have it in double precision. For programs; their names cannot be
 /// written in a scene.
-double rest(double place) { return place - static_cast<double>(static_cast<float>(place)); }
+double float_rest(double place) { return place - static_cast<double>(static_cast<float>(place)); }
 
 const Field kRests[] = {
-    {"x rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.x, 0, a.p)); }},
-    {"y rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.x, 1, a.p)); }},
-    {"z rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.x, 2, a.p)); }},
-    {"x0 rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.start_x, 0, a.p)); }, true},
-    {"y0 rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.start_x, 1, a.p)); }, true},
-    {"z0 rest", "m", kNeedsNothing, [](const View& a) { return rest(a.set.along(a.set.set.start_x, 2, a.p)); }, true},
+    {"x rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.x, 0, a.p)); }},
+    {"y rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.x, 1, a.p)); }},
+    {"z rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.x, 2, a.p)); }},
+    {"x0 rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.start_x, 0, a.p)); },
+     true},
+    {"y0 rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.start_x, 1, a.p)); },
+     true},
+    {"z0 rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.start_x, 2, a.p)); },
+     true},
 };
 
 /// Null for a name that is none of them.

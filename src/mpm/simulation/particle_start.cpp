@@ -88,7 +88,8 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   for (int k = 0; k < dim; ++k) {
     const int face = 2 * layout.axis(k);
     set.half[k] = 0.5 / definition.method.particles_per_direction;
-    if (body.lattice) set.half[k] = 0.5 * body.lattice->spacing[layout.axis(k)] / layout.cell(k);
+    // To round-off a lattice may be wider than a cell; domains may not.
+    if (body.lattice) set.half[k] = std::min(0.5, 0.5 * body.lattice->spacing[layout.axis(k)] / layout.cell(k));
     set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
     set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
   }

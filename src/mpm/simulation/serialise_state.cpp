@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/simulation/simulation.hpp"
 #include "state.hpp"
 #include "state_hash.hpp"
 
@@ -41,7 +41,7 @@ std::string identity_of(const MetricDefinition& metric) {
   return text + "\n";
 }
 
-/// `now`: of the state that is read [s].
+/// `now`: of the state that is read [s]. @throws DefinitionError for a metric that looks at an earlier time
 void serialise_metrics(StateArchive& archive, const std::vector<MetricDefinition>& metrics, double now,
                        std::vector<LineFit>& fits) {
   const StateArchive::Group group(archive, "rates");
@@ -63,7 +63,7 @@ void serialise_metrics(StateArchive& archive, const std::vector<MetricDefinition
                         : metrics[m].over ? metrics[m].over->from
                                           : metrics[m].at.value_or(now);
     if (from >= now - 1e-12) continue;
-    throw CheckpointError(fmt::format(
+    throw DefinitionError(fmt::format(
         "metrics.{}: it looks at t = {:g} s, and the run goes on from {:g} s without it; write a later time, "
         "or leave it out",
         metrics[m].name, from, now));
@@ -71,12 +71,18 @@ void serialise_metrics(StateArchive& archive, const std::vector<MetricDefinition
 }
 
 /// What metrics of force and torque remember. False where what is read was written without such metrics.
-bool serialise_wrenches(StateArchive& archive, std::vector<PeriodWrench>& wrenches) {
+/// `rigid_bodies`: of the run. @throws DefinitionError for what is of another number of them
+bool serialise_wrenches(StateArchive& archive, std::size_t rigid_bodies, std::vector<PeriodWrench>& wrenches) {
   const StateArchive::Group group(archive, "wrenches");
   const StateArchive::Same same(archive);
   std::vector<PeriodWrench> kept = wrenches;
   std::uint64_t bodies = kept.size();
   archive.value("bodies", bodies);
+  if (bodies != 0 && bodies != rigid_bodies) {
+    throw DefinitionError(fmt::format(
+        "it holds the forces on {} rigid bodies, and the run has {}: the file is damaged; take an earlier one", bodies,
+        rigid_bodies));
+  }
   kept.resize(bodies);
   for (std::size_t b = 0; b < kept.size(); ++b) {
     const StateArchive::Group of_body(archive, std::to_string(b));
@@ -116,6 +122,11 @@ void Simulation::State::serialise_particles(StateArchive& archive) {
     serialise_scalars(archive, "affine", set.affine);
     std::uint64_t starts = set.start_x.size();  // whoever resumes may ask for other outputs
     archive.value("start_x/rows", starts);
+    if (starts != 0 && starts != set.x.size()) {
+      throw DefinitionError(
+          fmt::format("it holds {} coordinates of the start of '{}', not {}: the file is damaged; take an earlier one",
+                      starts, set.name, set.x.size()));
+    }
     set.start_x.resize(starts);
     serialise_arrays(archive, "start_x", set.start_x);
     for (NamedScalar& scalar : set.brought) archive.list("brought/" + scalar.name, scalar.values);
@@ -209,7 +220,16 @@ void Simulation::State::serialise(StateArchive& archive) {
 void Simulation::serialise(StateArchive& archive) {
   state_->serialise(archive);
   serialise_metrics(archive, state_->definition.metrics, 1e-9 * static_cast<double>(state_->time), state_->rates);
-  if (!serialise_wrenches(archive, state_->wrenches)) {
+  for (const MetricDefinition& metric : state_->definition.metrics) {
+    if (!archive.reading() || find_body(metric.body) >= 0 || !metric.number.empty() || !metric.formula.empty())
+      continue;
+    try {
+      state_->check_field(metric.field);  // the start's places are there only if the saved run had them
+    } catch (const DefinitionError& error) {
+      throw DefinitionError(fmt::format("metrics.{}: {}", metric.name, error.what()));
+    }
+  }
+  if (!serialise_wrenches(archive, state_->bodies.size(), state_->wrenches)) {
     state_->find_wrenches();  // from here on
     for (PeriodWrench& wrench : state_->wrenches) wrench.mean = {};
   }

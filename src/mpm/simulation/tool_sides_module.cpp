@@ -24,9 +24,9 @@ void look_at(const RigidBody& body, RunParts& parts, ToolSides* sides) {
     const ThinTool& tool = sides->add(body, geometry);
     if (tool.distinguished() >= kDistinguished) return;
     parts.warnings.push_back(fmt::format(
-        "rigid body '{}' is thinner than 3 cells, and no plate: on {:.0f} % of its faces that have another one "
-        "opposite, the material before the two counts as on one side, and feels each other through the body; "
-        "make it of several bodies, each a plate, use a finer grid.cell, or write sides: one",
+        "rigid body '{}' is thinner than 3 cells, and on {:.0f} % of its area its two sides cannot be told apart: "
+        "material on both sides moves as one there. Divide it into flat or evenly curved bodies, use a finer "
+        "grid.cell, or write sides: one",
         body.name(), 100.0 * (1.0 - tool.distinguished())));
   } else if (body.definition().sides == Sides::one && is_thin(body.definition(), geometry, cell)) {
     parts.notes.push_back(start + "with sides: one the material on its two sides shares nodes");

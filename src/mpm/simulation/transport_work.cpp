@@ -15,16 +15,11 @@
 namespace mpm {
 namespace {
 
-constexpr double kMostStages = 1e5;    ///< in a step
-constexpr double kManyStages = 100.0;  ///< in a step: it costs tens of times that of the mechanics
-constexpr double kGravity = 9.81;      ///< [m/s^2]
-constexpr double kWater = 1000.0;      ///< [kg/m^3]
-
-/// The material or the surface that asks for most of the work, and what it asks for.
-struct Work {
-  double stages = 1.0;  ///< in a step
-  std::string cause;    ///< its key, its value and what may be wrong with it
-};
+constexpr double kMostStages = 1e5;   ///< in a step
+constexpr double kManyStages = 15.0;  ///< in a step: a pass over the particles each, they are most of its work
+constexpr double kMostRatio = 1e12;   ///< of a step to the stable one, of which the stages are an integer
+constexpr double kGravity = 9.81;     ///< [m/s^2]
+constexpr double kWater = 1000.0;     ///< [kg/m^3]
 
 bool is_used(const MaterialDefinition& material, const std::vector<std::string>& used) {
   return std::find(used.begin(), used.end(), material.name) != used.end();
@@ -69,17 +64,20 @@ std::string material_cause(const MaterialDefinition& material, const TransportMa
       material.name, most, most * weight);
 }
 
-Work work_of(const SimulationDefinition& d, const QuantityDefinition& quantity, const std::vector<std::string>& used,
-             double cell, double dt) {
-  double fastest = 0.0, capacity = std::numeric_limits<double>::infinity();
+TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& quantity,
+                      const std::vector<std::string>& used, double cell, double dt) {
+  TransportWork work;
+  work.quantity = kQuantityNames[static_cast<std::size_t>(quantity.quantity)];
+  double capacity = std::numeric_limits<double>::infinity();
   std::string conductor;
   for (std::size_t m = 0; m < std::min(d.materials.size(), quantity.materials.size()); ++m) {
     if (!is_used(d.materials[m], used)) continue;
     const TransportMaterial& own = quantity.materials[m];
     capacity = std::min(capacity, least_capacity(own, quantity.quantity, d.materials[m].density));
     const double diffusivity = largest_diffusivity(own, quantity.quantity, d.materials[m].density);
-    if (diffusivity <= fastest) continue;
-    fastest = diffusivity;
+    if (diffusivity <= work.diffusivity) continue;
+    work.diffusivity = diffusivity;
+    work.material = d.materials[m].name;
     conductor = material_cause(d.materials[m], own, quantity.quantity, diffusivity);
   }
   double conductance = 0.0;
@@ -89,35 +87,52 @@ Work work_of(const SimulationDefinition& d, const QuantityDefinition& quantity, 
     if (own <= conductance) continue;
     conductance = own;
     surface = fmt::format("transport.{}.fluxes: '{}' takes {:.4g} W/(m^2 K) from its surface (boiling water: 1e4)",
-                          kQuantityNames[static_cast<int>(quantity.quantity)], flux.name, own);
+                          work.quantity, flux.name, own);
   }
   double longest = longest_update(cell, capacity, conductance);
-  const double stable = stable_step(cell, fastest);
+  const double stable = stable_step(cell, work.diffusivity);
   bool by_surface = longest < stable;
   if (d.method.shape == ShapeKind::dirac && kOfPoints * stable < longest) {
     longest = kOfPoints * stable;
     by_surface = false;
   }
   const double updates = std::max(1.0, std::ceil(dt / longest));
-  return {updates * stages_needed(dt / updates / stable), by_surface ? surface : conductor};
+  const double ratio = dt / updates / stable;
+  work.stages = updates * (ratio < kMostRatio ? stages_for(ratio) : stages_needed(ratio));
+  work.cause = by_surface ? surface : conductor;
+  return work;
+}
+
+double smallest_cell(const SimulationDefinition& d) {
+  double cell = std::numeric_limits<double>::infinity();
+  for (const int axis : axes_of(d.geometry)) cell = std::min(cell, d.grid.cell[axis]);
+  return cell;
 }
 
 }  // namespace
 
-std::string transport_warning(const SimulationDefinition& d, const std::vector<std::string>& materials) {
-  if (d.transport.quantities.empty()) return {};
-  double cell = std::numeric_limits<double>::infinity();
-  for (const int axis : axes_of(d.geometry)) cell = std::min(cell, d.grid.cell[axis]);
-  const double dt = longest_step(d, materials, cell), sync = 1e-9 * static_cast<double>(d.time.sync);
-  Work most;
+std::vector<TransportWork> transport_work(const SimulationDefinition& d, const std::vector<std::string>& materials) {
+  std::vector<TransportWork> all;
+  if (d.transport.quantities.empty()) return all;
+  const double cell = smallest_cell(d), dt = longest_step(d, materials, cell);
   for (const QuantityDefinition& quantity : d.transport.quantities) {
-    const Work own = work_of(d, quantity, materials, cell, dt);
+    all.push_back(work_of(d, quantity, materials, cell, dt));
+  }
+  return all;
+}
+
+std::string transport_warning(const SimulationDefinition& d, const std::vector<std::string>& materials) {
+  TransportWork most;
+  for (const TransportWork& own : transport_work(d, materials)) {
     if (own.stages > most.stages) most = own;
   }
-  if (most.stages <= kManyStages) return {};
+  if (most.stages < kManyStages) return {};
+  const double dt = longest_step(d, materials, smallest_cell(d)), sync = 1e-9 * static_cast<double>(d.time.sync);
   const std::string text = fmt::format("{}: a step of {:.3g} s takes {:.3g} stages of it", most.cause, dt, most.stages);
   if (most.stages <= kMostStages && std::ceil(sync / dt) * most.stages <= kMostSteps) {
-    return text + ", each of them about as much work as a step without it";
+    return text +
+           ", each a pass over the particles, which sets the pace: check the number and its unit, or make grid.cell "
+           "larger";
   }
   throw DefinitionError(
       fmt::format("{}; at most {:.0e} are taken in a step and {:.0e} in a sync period: check the "

@@ -139,6 +139,7 @@ void SurfaceHeat::load() {
 }
 
 double SurfaceHeat::constants(const std::vector<NodalQuantity>& nodes, int field, const NodeRef& ref) const {
+  if (loads_.empty()) return 0.0;  // nothing conducts
   const double capacity = nodes[field].capacity.at(ref.block, 0, ref.node);
   return capacity > 0.0 ? loads_[field].at(ref.block, 0, ref.node) / capacity : 0.0;
 }

@@ -26,7 +26,7 @@ constexpr std::size_t kEntry = 12, kPlace = 8;                   // of an index:
 class MappedFile {
  public:
   explicit MappedFile(const std::string& path) {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     struct stat about {};
     if (file < 0) return;
     if (fstat(file, &about) == 0 && S_ISREG(about.st_mode) && about.st_size > 0) {

@@ -4,6 +4,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -51,13 +54,20 @@ void ExitWatchdog::watch() {
     ended = ends_ ? ended + kLook : std::chrono::milliseconds{0};
     if (ended > patience_ || (ends_ && stopped > kStopPatience)) std::_Exit(exit_code_);
     if (stopped > kStopPatience) {
-      std::fputs("stopped before there was a run\n", stderr);
-      leave(exit_code_);
+      const std::string why = used_up();
+      std::fprintf(stderr, "stopped before there was a run%s%s\n", why.empty() ? "" : ": ", why.c_str());
+      leave(why.empty() ? exit_code_.load() : 1);
     }
     if (asked <= kStopPatience) continue;
     // The lock is kept: who works meanwhile waits at the end of its work for the end of the process.
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (close_) leave(close_());
+    if (!close_) continue;
+    try {
+      leave(close_());
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "the run could not be closed: %s\n", error.what());
+      leave(1);
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "mpm/math/input_file.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/projected.hpp"
 #include "mpm_ros/command/frame_follower.hpp"
@@ -29,8 +30,9 @@ namespace {
 /// The scene of a recorded run, YAML.
 std::string recorded_scene(const std::string& bag_path) {
   try {
-    if (const std::string damage = bag_damage(parts_of(bag_path).front()); !damage.empty())
-      throw BagError(fmt::format("bag {}: {}", bag_path, damage));
+    const std::string first = parts_of(bag_path).front();
+    for (const std::string& wrong : {mpm::refused_input(first), bag_damage(first)})
+      if (!wrong.empty()) throw BagError(fmt::format("bag {}: {}", bag_path, wrong));
     rosbag::Bag bag(parts_of(bag_path).front(), rosbag::bagmode::Read);
     rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<RunInfo>()));
     for (const rosbag::MessageInstance& instance : view) {
@@ -38,6 +40,8 @@ std::string recorded_scene(const std::string& bag_path) {
     }
   } catch (const ros::Exception& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
+  } catch (const std::bad_alloc&) {
+    throw BagError(fmt::format("bag {} is damaged: it asks for more memory than there is", bag_path));
   }
   return {};
 }
@@ -140,18 +144,11 @@ void FramePoses::put(std::size_t start, const mpm::Scene& scene, int body, const
 
 void FramePoses::take_recorded(const std::string& scene_text) {
   for (std::size_t i = 0; i < starts_.size(); ++i) {
-    std::string pose;
     try {
-      pose = recorded_pose(starts_[i], scene_text);
+      set_[i] = recorded_pose(starts_[i], scene_text);
     } catch (const YAML::Exception&) {
-      // As none.
+      set_[i].clear();
     }
-    if (pose.empty()) {
-      throw ParameterError(fmt::format(
-          "the recorded run does not say where '{}' begins, which follows a tf frame; give it a pose in the scene",
-          starts_[i].body));
-    }
-    set_[i] = pose;
   }
 }
 

@@ -138,7 +138,8 @@ Stamps SimulatorNode::first_stamps() const {
 
 mpm::Scene SimulatorNode::load(const std::vector<std::string>& set) const {
   std::vector<std::string> overrides = heights_.set;
-  overrides.insert(overrides.end(), poses_.set().begin(), poses_.set().end());
+  for (const std::string& pose : poses_.set())
+    if (!pose.empty()) overrides.push_back(pose);
   overrides.insert(overrides.end(), set.begin(), set.end());
   return mpm::load_scene(parameters_.scene, overrides);
 }
@@ -155,10 +156,16 @@ mpm::Scene SimulatorNode::aimed(mpm::Scene scene) const {
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const std::string& checkpoint) {
   const std::string text = mpm::read_checkpoint(checkpoint).label.scene_text;
   if (subject_->scene.text == text) return subject_;
-  if (poses_.any()) poses_.take_recorded(text);
-  const Building building(*this);
-  mpm::Scene scene = aimed(with_choice_of(load(subject_->set), checkpoint));
-  return checked({std::move(scene), subject_->set});
+  const FramePoses before = poses_;
+  try {
+    poses_.take_recorded(text);
+    const Building building(*this);
+    mpm::Scene scene = aimed(with_choice_of(load(subject_->set), checkpoint));
+    return checked({std::move(scene), subject_->set});
+  } catch (...) {
+    poses_ = before;  // the run that is there goes on
+    throw;
+  }
 }
 
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) {

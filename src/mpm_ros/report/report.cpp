@@ -13,6 +13,7 @@
 #include "mpm/math/files_in_use.hpp"
 #include "mpm/math/json_text.hpp"
 #include "mpm/math/output_file.hpp"
+#include "mpm_ros/message/files_of_run.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/report/recorded_run.hpp"
 #include "mpm_ros/report/report_animation.hpp"
@@ -26,7 +27,6 @@
 #include "mpm_ros/report/report_same.hpp"
 #include "mpm_ros/report/report_sweep.hpp"
 #include "mpm_ros/report/report_tables.hpp"
-#include "mpm_ros/run/run_files.hpp"
 #include "mpm_ros/sweep/study.hpp"
 
 namespace mpm_ros {

@@ -145,10 +145,12 @@ void RunOutputs::write_static() {
 }
 
 void RunOutputs::check_fields(const std::string& checkpoint) const {
-  if (!mpm::Simulation::needs_start(options_.particles.fields)) return;
+  std::vector<std::string> fields = options_.particles.fields;
+  fields.insert(fields.end(), global_.fields().begin(), global_.fields().end());
+  if (!mpm::Simulation::needs_start(fields)) return;
   mpm::ParticleColumns columns;
   try {
-    simulation_.read_particles(options_.particles.fields, {std::numeric_limits<int>::max(), {}}, columns);
+    simulation_.read_particles(fields, {std::numeric_limits<int>::max(), {}}, columns);
   } catch (const mpm::DefinitionError& error) {
     throw mpm::CheckpointError(fmt::format("checkpoint {}: {}", checkpoint, error.what()));
   }

@@ -238,7 +238,7 @@ class Reference {
         }
         p.v[c] = after[c] - drag * dt;
         p.next_x[c] = p.x[c] + (motion == mpm_kernel::kAdopt ? 0.5 * (old + p.v[c]) : p.v[c]) * dt;
-        if (motion == mpm_kernel::kAffine) keep_moment(set, p, b[c], p.affine[c]);
+        if (motion == mpm_kernel::kAffine) std::copy(b[c], b[c] + 3, p.affine[c]);
       }
       if (by_point) p.next_x[0] += to_point(set, p, motion, dt) - to_mean(motion, after[0], a[0], dt);
     });
@@ -337,40 +337,19 @@ class Reference {
     each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) { mean += s * n.mean; });
     return mean;
   }
-  using Moment = Eigen::Matrix<double, kDim, kDim>;
-  // D = sum of S (x_i - x_p) (x_i - x_p)^T [m^2].
-  Moment second_moment(const Set& set, const Particle& p) {
-    Moment d = Moment::Zero();
+  // B D^-1 [1/s], D = sum of S (x_i - x_p) (x_i - x_p)^T.
+  void affine_gradient(const Set& set, const Particle& p, double (&gradient)[3][3]) {
+    using Matrix = Eigen::Matrix<double, kDim, kDim>;
+    Matrix b, d = Matrix::Zero();
     each_node(set, p, [&](ReferenceNode&, double s, const double*, const double* arm) {
       for (int c = 0; c < kDim; ++c) {
         for (int k = 0; k < kDim; ++k) d(c, k) += s * arm[c] * arm[k];
       }
     });
-    return d;
-  }
-  // The D that what particles keep refers to: of splines that away from walls (kernel/weights.hpp).
-  Moment kept_moment(const Set& set, const Particle& p) {
-    const bool quadratic = shape_ == ShapeKind::bspline2;
-    if (!quadratic && shape_ != ShapeKind::bspline3) return second_moment(set, p);
-    Moment d = Moment::Zero();
-    for (int k = 0; k < kDim; ++k) d(k, k) = (quadratic ? 0.25 : 1.0 / 3.0) * grid_.cell[k] * grid_.cell[k];
-    return d;
-  }
-  // From a row of the gathered moment to what the particle keeps.
-  void keep_moment(const Set& set, const Particle& p, const double (&gathered)[3], double (&kept)[3]) {
-    Eigen::Matrix<double, 1, kDim> row;
-    for (int k = 0; k < kDim; ++k) row(k) = gathered[k];
-    if (shape_ == ShapeKind::bspline2 || shape_ == ShapeKind::bspline3)
-      row = row * second_moment(set, p).inverse() * kept_moment(set, p);
-    for (int k = 0; k < kDim; ++k) kept[k] = row(k);
-  }
-  // B D^-1 [1/s].
-  void affine_gradient(const Set& set, const Particle& p, double (&gradient)[3][3]) {
-    Moment b;
     for (int c = 0; c < kDim; ++c) {
       for (int k = 0; k < kDim; ++k) b(c, k) = p.affine[c][k];
     }
-    const Moment l = b * kept_moment(set, p).inverse();
+    const Matrix l = b * d.inverse();
     for (int c = 0; c < kDim; ++c) {
       for (int k = 0; k < kDim; ++k) gradient[c][k] = l(c, k);
     }

@@ -55,6 +55,14 @@ TEST(SceneWarnings, NoShippedSceneHasOne) {
   }
 }
 
+// Without the warning such a run ends in steps of 1e-16 s.
+TEST(SceneWarnings, ASprayOfApicWithSplines) {
+  const std::string water = "materials.0={name: foam, law: newtonian_fluid, density: 1000, sound_speed: 25}";
+  expect_one({water, "method={shape: bspline2, transfer: apic}"}, "body 'block': with apic and bspline2 drops");
+  EXPECT_TRUE(warnings({water, "method={shape: ugimp, transfer: apic}"}).empty());
+  EXPECT_TRUE(warnings({"method={shape: bspline2, transfer: apic}"}).empty());
+}
+
 TEST(SceneWarnings, AnEndBetweenSyncPoints) {
   expect_one({"time.end=0.004"}, "the run goes on to 0.01 s, the first sync point after its end at 0.004 s");
   expect_one({"time.end=0.021"}, "the run goes on to 0.03 s, the first sync point after its end at 0.021 s");

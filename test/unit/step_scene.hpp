@@ -112,13 +112,7 @@ class StepScene {
           for (int k = 0; k < kDim; ++k) b[c][k] += n.s * v * arm[k];
         }
       }
-      // Splines keep the gradient times their moment away from walls (kernel/weights.hpp).
-      const bool quadratic = method_.shape == ShapeKind::bspline2;
-      const double inner = (quadratic ? 0.25 : 1.0 / 3.0) * kCell * kCell;
-      for (int c = 0; c < kDim * kDim; ++c) {
-        const bool spline = quadratic || method_.shape == ShapeKind::bspline3;
-        set().affine[c].set(p, spline ? gradient[c / kDim][c % kDim] * inner : b[c / kDim][c % kDim]);
-      }
+      for (int c = 0; c < kDim * kDim; ++c) set().affine[c].set(p, b[c / kDim][c % kDim]);
     }
   }
   Vector place(int p) {

@@ -168,12 +168,11 @@ class WeightMaker {
   }
 
  private:
-  static constexpr double kLeastMoment = 1e-10;                           ///< [cells^2]
-  static constexpr double kInnerMoment = kNodes == 3 ? 0.25 : 1.0 / 3.0;  ///< of a spline away from walls [cells^2]
+  static constexpr double kLeastMoment = 1e-10;  ///< [cells^2]
   template <Beside What, class Along>
   [[gnu::always_inline]] static void keep(Along& shape, W offset, double cell, int k, int q, Made& to) {
     if constexpr (What == Beside::moment || What == Beside::affine) {
-      put_moments<What>(shape, offset, cell);
+      put_moments(shape, offset, cell, What == Beside::affine);
     }
     for (int n = 0; n < kNodes; ++n) {
       shape.s[n].store(to.s[k][n] + q);
@@ -186,14 +185,10 @@ class WeightMaker {
     for (int n = 0; n < kNodes; ++n) (What == Beside::gradient ? radial.t[n] : hat[n]).store(to.t[n] + q);
   }
 
-  // A product of values that each reproduce a linear field has a diagonal second moment D, sum of S (x_i - x_p)^2. With
-  // the weight r values do not: moments are then about their mean place. What a particle keeps is B = C D, C being its
-  // velocity gradient, which conserves angular momentum (Jiang et al. (2015)).
-  // A spline folded at a wall has D = 0 on the wall, where all weight is the wall node's, and a negative one beyond it.
-  // A particle that comes to a wall with the B of the step before would have a C without bound. So particles of splines
-  // keep C times the D of their spline away from walls: the same there, and bounded by the grid's gradient beside them.
-  template <Beside What, class Along>
-  static void put_moments(Along& shape, W offset, double cell) {
+  // A product of values that each reproduce a linear field has a diagonal second moment, sum of S (x_i - x_p)^2. With
+  // the weight r values do not: moments are then about their mean place.
+  template <class Along>
+  static void put_moments(Along& shape, W offset, double cell, bool over_second) {
     W second(0.0), mean(0.0);
     if constexpr (!std::is_same_v<Along, Shape<W>>) {
       for (int n = 0; n < kNodes; ++n) mean += shape.s[n] * W(n - kNodes / 2);
@@ -205,17 +200,12 @@ class WeightMaker {
       shape.g[n] = shape.s[n] * arm;
       second += shape.g[n] * arm;
     }
-    constexpr bool kFolds = Shape<W>::kFoldsAtWalls, kTaken = What == Beside::moment;
-    if (kTaken && !kFolds) return;
-    const W least(kLeastMoment * cell * cell), inner(kInnerMoment * cell * cell);
+    if (!over_second) return;
+    // A spline folded at a wall has no second moment on the wall, where all weight is the wall node's and moments are
+    // zero, and a negative one beyond it.
+    const W least(kLeastMoment * cell * cell);
     second = select(second < W(0.0), min(second, -least), max(second, least));
-    for (int n = 0; n < kNodes; ++n) {
-      if constexpr (kFolds && kTaken) {
-        shape.g[n] *= inner / second;
-      } else {
-        shape.g[n] /= kFolds ? inner : second;
-      }
-    }
+    for (int n = 0; n < kNodes; ++n) shape.g[n] /= second;
   }
 };
 

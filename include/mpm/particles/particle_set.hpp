@@ -55,11 +55,10 @@ struct ParticleSet {
   std::vector<ParticleScalar> history;       ///< history variables of the law
   std::vector<ParticleScalar> masses;        ///< in axisymmetric scenes one scalar, the mass of the ring [kg]
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
-  std::vector<ParticleScalar>
-      affine;  ///< APIC: B, moment of the velocity, [component][axis] [m^2/s] (kernel/weights.hpp)
-  std::vector<ParticleScalar> domain;       ///< F at the start of the step, where the shape function follows it
-  std::vector<PaddedArray<double>> next_x;  ///< position at the end of the step, when strain is updated after motion
-  std::vector<NamedScalar> brought;         ///< by physics beside the mechanics
+  std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
+  std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
+  std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
+  std::vector<NamedScalar> brought;          ///< by physics beside the mechanics
   /// Place in `brought` of the strain that brings no stress; the next one is what it was when the stress was last
   /// computed (kernel/free_strain.hpp). Negative where nothing expands.
   int free_strain = -1;

@@ -97,6 +97,21 @@ void look_at_speeds(const Scene& scene, std::vector<std::string>& warnings) {
   }
 }
 
+/// Drops that fly alone keep APIC's velocity gradient, and beside a wall, where the second moment of a folded spline
+/// goes to zero, it grows without bound.
+void look_at_spray(const Scene& scene, std::vector<std::string>& warnings) {
+  const MethodDefinition& method = scene.definition.method;
+  const bool spline = method.shape == ShapeKind::bspline2 || method.shape == ShapeKind::bspline3;
+  if (!spline || method.transfer.kind != TransferKind::apic) return;
+  for (const BodyDefinition& body : scene.bodies) {
+    if (!std::holds_alternative<NewtonianFluidDefinition>(of_body(body, scene).law)) continue;
+    warnings.push_back(fmt::format(
+        "body '{}': with apic and {} drops that come to a wall alone gain energy without bound; take another "
+        "shape, as ugimp, or another transfer, as {{fmpm: 2}}, unless the fluid stays together",
+        body.name, shape_name(method.shape)));
+  }
+}
+
 }  // namespace
 
 SlowestWave slowest_wave(const Scene& scene) {
@@ -124,6 +139,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
     for (const MaterialDefinition& material : scene.definition.materials) look_at_density(material, warnings);
   }
   look_at_speeds(scene, warnings);
+  look_at_spray(scene, warnings);
   return warnings;
 }
 

@@ -71,7 +71,7 @@ TEST_F(BadCheckpoint, SaysOfItselfWhatItIs) {
 
 TEST_F(BadCheckpoint, IsNotThere) {
   fs::remove(file_);
-  expect_refused("No such file");
+  expect_refused("no such file");
 }
 
 TEST_F(BadCheckpoint, IsNotHdf5) {

@@ -156,7 +156,8 @@ TEST(SweepPlan, WhatIsWrongIsToldInASentenceWithItsPlace) {
       "plan.yaml:3: run 3, materials.foam.poisson = 0.6: materials.foam.poisson: Poisson's ratio is 0.6; it must lie "
       "between -1 and 0.5, both excluded");
   expect("parameters: {materials.foam.young: {value: [1 MPa]}}",
-         "plan.yaml:2: parameters.materials.foam.young.value: unknown key 'value'; did you mean 'values'?");
+         "plan.yaml:2: parameters.materials.foam.young.value: unknown key 'value'; did you mean 'values'? write one of "
+         "values, grid, uniform, log_uniform, normal");
   expect("parameters: {time.cfl: {values: []}}",
          "plan.yaml:2: parameters.time.cfl.values: is empty; write one value or more");
   expect("parameters: {time.cfl: {grid: {from: 0.5, to: 0.2, count: 3}}}",

@@ -118,7 +118,7 @@ def fields_of(run, wanted):
         raise TableError(f"no particle field '{wanted}' was recorded; there are: {', '.join(known)}")
     if wanted:
         return [wanted]
-    # What is transported tells most, where the scene names it before all else.
+    # A quantity that is transported tells most, where the scene names it before all else.
     telling = [name for name in known[:1] if name in TRANSPORTED] + ["speed", "ep", "mises", "p"]
     return [name for name in telling if name in known][:2] or known[:1]
 

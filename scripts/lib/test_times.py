@@ -15,7 +15,7 @@ NOTABLE = 1.0  # seconds: shorter stages count in the sum alone
 
 
 def said_cost(root, test):
-    """What the file of the CTest test "label.file" says, or nothing."""
+    """Cost that the file of the CTest test "label.file" states, or nothing."""
     label, _, name = test.partition(".")
     for path in (root / "test" / label / f"{name}_test.cpp", root / "test" / label / f"{name}_node_test.cpp",
                  root / "test" / label / f"{name}_test.py"):

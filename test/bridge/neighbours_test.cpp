@@ -1,4 +1,4 @@
-// What other nodes under the same master do, as its answers say it, and the words that roscpp would abort on.
+// Tells what other nodes under the same master do by its answers, and the words that roscpp would abort on.
 #include "mpm_ros/node/neighbours.hpp"
 
 #include <gtest/gtest.h>

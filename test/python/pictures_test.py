@@ -32,7 +32,7 @@ def both(a, b):
 
 
 def in_slice(surface, point):
-    """Whether a part of the surface, cut at y = 0.5, is filled at a point (x, z)."""
+    """True if a part of the surface, cut at y = 0.5, is filled at a point (x, z)."""
     for vertices, faces in plot_section.solids(*surface):
         segments = [(a[[0, 2]], b[[0, 2]]) for a, b in plot_section.cut(vertices, faces, 1, 0.5)]
         path = plot_section.area(list(plot_section.loops(segments)))

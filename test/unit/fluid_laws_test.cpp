@@ -69,8 +69,8 @@ TEST(NewtonianFluid, PartsWithoutTension) {
   EXPECT_NEAR(pressure(spray), 1e6 / 7.0 * (std::pow(0.999, -7.0) - 1.0), 1e-9 * 1e6);
 }
 
-// What has parted is liquid of its initial density in empty space: the mean shear stress falls with the liquid's part
-// of the volume, 1 / J. With tension the fluid fills all of its volume, and the stress is mu gamma_dot.
+// A fluid that has parted is liquid of its initial density in empty space: the mean shear stress falls with the
+// liquid's part of the volume, 1 / J. With tension the fluid fills all of its volume, and the stress is mu gamma_dot.
 TEST(NewtonianFluid, ResistsShearByTheVolumeOfTheLiquid) {
   const double rate = 20.0, viscosity = 0.3, dt = 1e-6;
   for (const bool tension : {false, true}) {

@@ -94,7 +94,7 @@ TEST(Pace, TimeAndPaceFollowFromAStep) {
   EXPECT_EQ(duration_text(9000.0), "2.5 h");
 }
 
-// What was timed stands for the run where it is half of it; else it is said what it does not know.
+// Steps that were timed stand for the run where they are half of it; else the forecast says what it does not know.
 TEST(Pace, AForecastSaysWhatItDoesNotKnow) {
   Forecast forecast;
   forecast.cost = {0.004, 2000.0, 70};

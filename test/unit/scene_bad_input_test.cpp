@@ -190,7 +190,7 @@ TEST(SceneBadInput, TextThatIsNotAScene) {
   EXPECT_NE(refusal("[1, 2]: 3\n").find("a key must be a word"), std::string::npos);
 }
 
-// What looks right and is not: each error says which character it is.
+// Characters that look right and are not: each error says which character it is.
 TEST(SceneBadInput, CharactersThatLookLikeOthers) {
   const std::string good = text_of(kLines);
   const auto found = [&](const std::string& set) { return refusal(good, {set}); };

@@ -131,7 +131,7 @@ TEST(SceneMetrics, ForcesMassesMeansAndFormulas) {
   EXPECT_NEAR(values[0], 64.0, 1e-9);
   EXPECT_NEAR(values[1], 32.0, 1e-9);
   EXPECT_EQ(values[2], 3.0);
-  // What reports of contact say, which have their own sums.
+  // Reports of contact have sums of their own.
   EXPECT_GT(lift, 1.0);
   EXPECT_NEAR(values[3], last, 1e-9 * lift);
   EXPECT_NEAR(values[4], lift, 1e-9 * lift);

@@ -1,5 +1,5 @@
-// What a scene says that is possible and most often not meant: slips of units, ends between sync points, transport that
-// sets the pace; and what --explain prints so that they are seen.
+// Warnings of what is possible in a scene and most often not meant: slips of units, ends between sync points, transport
+// that sets the pace; and what --explain prints so that they are seen.
 #include "mpm/scene/scene_warnings.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ void expect_one(const std::vector<std::string>& set, const std::string& start, c
   EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
 }
 
-/// Of a run's warnings those of transport.
+/// Warnings of a run that are of transport.
 std::vector<std::string> of_stages(const Scene& scene) {
   std::vector<std::string> found;
   for (const std::string& warning : Simulation(scene, {1}).warnings()) {
@@ -113,7 +113,7 @@ TEST(SceneWarnings, WaterThatSetsThePace) {
       std::string::npos);
 }
 
-// What --explain prints is what the warning says: kappa = 5e4 W/(m K) over 100 kg/m^3 and 1 J/(kg K), 500 m^2/s. The
+// --explain prints what the warning says: kappa = 5e4 W/(m K) over 100 kg/m^3 and 1 J/(kg K), 500 m^2/s. The
 // wave of 14.1 m/s crosses half a cell in 1.77e-3 s, 1,414 steps of 0.05^2 / 2000 s = 1.25e-6 s, which 75 stages reach:
 // (75^2 + 75 - 2) / 4 = 1,424.5.
 TEST(SceneWarnings, TransportIsCountedOnce) {

@@ -31,7 +31,7 @@ enum class FunctionPlaces { present, present_and_start };
 /// Numbers that expressions may use by name; each in the units in which expressions are written.
 using NamedConstants = std::vector<std::pair<std::string, double>>;
 
-/// What an expression already means by this name (a variable, a constant or a function), such as "the time"; empty for
+/// Meaning that a name already has in expressions (a variable, a constant or a function), such as "the time"; empty for
 /// a name that is free.
 std::string meaning_in_expressions(const std::string& name);
 /// Names in an expression: words that are no part of a number.
@@ -62,9 +62,9 @@ class Function {
   bool uses_start() const;
   /// Whether the value depends on the place at all: x, y, z or X, Y, Z.
   bool uses_place() const;
-  /// Whether it depends on the place along an axis, 0 to 2.
+  /// True if it depends on the place along an axis, 0 to 2.
   bool uses_place(int axis) const;
-  /// Whether the value depends on t.
+  /// True if the value depends on t.
   bool uses_time() const;
   /// The same function with a parsed expression of its own.
   Function own_copy() const;

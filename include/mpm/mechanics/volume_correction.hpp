@@ -58,7 +58,7 @@ class VolumeCorrection final : public Stage {
     double density;               ///< before deformation [kg/m^3]
   };
 
-  /// What is pointed to outlives the stage. `transfer`: of these sets. `cell`: volume of a cell [m^3]; about an axis
+  /// All pointers outlive the stage. `transfer`: of these sets. `cell`: volume of a cell [m^3]; about an axis
   /// the product of its edges [m^2], for all of a ring counts.
   VolumeCorrection(std::vector<Body> bodies, GeometryKind geometry, ShapeKind shape, int threads,
                    std::unique_ptr<ScalarTransfer> transfer, double cell);
@@ -78,7 +78,7 @@ class VolumeCorrection final : public Stage {
   }
 
  private:
-  /// Of a body's particles, in their order.
+  /// Numbers of a body's particles, in their order.
   struct Numbers {
     PaddedArray<double> volume;                ///< over mass [m^3/kg]
     PaddedArray<double> fullness, full;        ///< c; part of the weights on nodes that are full
@@ -90,7 +90,7 @@ class VolumeCorrection final : public Stage {
   template <class Geometry>
   void find_volumes();
   void find_fullness(const Fields& fields);
-  /// Of the domain, in cells, about a node; about an axis times the radius and a turn [m].
+  /// Part of the domain about a node, in cells; about an axis times the radius and a turn [m].
   double share(const Grid& grid, const std::array<int, 3>& node) const;
   double share_along(const Grid& grid, int axis, int node) const;
   void gather(Fields& fields);

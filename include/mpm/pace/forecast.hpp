@@ -1,7 +1,8 @@
 // How long a run will take, and its pace: simulated over wall time.
 //
 // A forecast and no promise: it takes the steps that were timed for all the others. Stepping alone, without outputs.
-// What the others may cost more or less is said with it: a tool that has not touched yet, material that sleeps or will.
+// Reasons why others may cost more or less are said with it: a tool that has not touched yet, material that sleeps or
+// will.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct Forecast {
 
   double steps() const { return simulated * cost.steps_per_second; }
   double wall_seconds() const { return steps() * cost.step_seconds; }
-  /// Whether the steps that were timed are so many of the run's that they stand for it.
+  /// True if the steps that were timed are so many of the run's that they stand for it.
   bool of_run() const { return simulated > 0.0 && static_cast<double>(cost.steps) >= kOfRun * steps(); }
   /// Simulated over wall time, as far as stepping sets it.
   double real_time_factor() const { return 1.0 / (cost.step_seconds * cost.steps_per_second); }

@@ -20,7 +20,7 @@ class SceneConstants {
   /// The dimension of the constant that a text names; nothing for another text, and for a constant without a unit.
   std::optional<Dimension> dimension_of(const std::string& text) const;
   bool has(const std::string& name) const;
-  /// Whether an expression names one of them. Those that it names count as used from now on.
+  /// True if an expression names one of them. Those that it names count as used from now on.
   bool used_by(const std::string& expression) const;
   /// Names that nothing has used so far, in order.
   std::vector<std::string> unused() const;

@@ -8,7 +8,7 @@
 
 namespace mpm {
 
-/// Of the texts of two scenes, as Scene::text has them: the first difference on which their states depend, in words;
+/// First difference, in words, of the texts of two scenes (Scene::text) on which their states depend;
 /// empty where one can go on as the other. A sync period that one of them alone says is left out.
 std::string state_difference(const std::string& here, const std::string& there);
 

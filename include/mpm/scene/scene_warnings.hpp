@@ -1,5 +1,5 @@
-// What a scene says that is possible, and most often not meant: a unit that was forgotten, an end that no sync point
-// meets.
+// Warnings of what is possible in a scene, and most often not meant: a unit that was forgotten, an end that no sync
+// point meets.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct SlowestWave {
   std::string material;
 };
 SlowestWave slowest_wave(const Scene& scene);
-/// What to say of a rigid body that is faster [m/s].
+/// Warning of a rigid body that is faster than waves; speeds in m/s.
 std::string faster_than_waves(const std::string& body, double speed, const SlowestWave& wave);
 
 }  // namespace mpm

@@ -63,7 +63,7 @@ CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation,
 std::string text_difference(const std::string& here, const std::string& there);
 /// @throws CheckpointError for a file that is not a checkpoint, or of another version
 CheckpointAbout read_checkpoint(const std::string& path);
-/// Of the text of a checkpoint's scene, how it differs from the scene that is to go on from there, in words; empty
+/// Difference, in words, between the text of a checkpoint's scene and the scene that is to go on from there; empty
 /// where it can.
 using SceneDifference = std::function<std::string(const std::string& recorded)>;
 /// `scene_text`: the scene from which `simulation` was built. `difference`: what counts as another one; any other text,

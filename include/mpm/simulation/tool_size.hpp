@@ -1,4 +1,4 @@
-// Whether a rigid body is so large that its unit of length is likely another one than was meant.
+// Warning of a rigid body that is so large that its unit of length is likely another one than was meant.
 #pragma once
 
 #include <string>

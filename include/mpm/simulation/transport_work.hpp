@@ -1,4 +1,4 @@
-// What transport costs in a step, before there is a run: quantities move in stages on the grid, as many as their
+// Work of transport in a step, found before there is a run: quantities move in stages on the grid, as many as their
 // fastest conductor asks for. A slip in a unit makes them millions.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// What the transport of a quantity takes in a step of the mechanics.
+/// Work that the transport of a quantity takes in a step of the mechanics.
 struct TransportWork {
   const char* quantity = "";  ///< its key
   std::string material;       ///< in which it spreads fastest; empty where it does not spread
@@ -17,7 +17,7 @@ struct TransportWork {
   double stages = 1.0;        ///< in a step, of all its updates
   std::string cause;          ///< the key that asks for them, its value and what may be wrong with it
 };
-/// Of each quantity of the definition. `materials`: names of those that bodies have.
+/// Work of each quantity of the definition. `materials`: names of those that bodies have.
 std::vector<TransportWork> transport_work(const SimulationDefinition& definition,
                                           const std::vector<std::string>& materials);
 

@@ -132,7 +132,7 @@ struct QuantityDefinition {
   std::vector<PairHeatDefinition> pairs;
 };
 
-/// Of a volume [J/(m^3 K)], [1], [1/Pa]: the least that it is. `density` [kg/m^3]: of the material at the start.
+/// Least capacity of a volume [J/(m^3 K)], [1], [1/Pa]. `density` [kg/m^3]: of the material at the start.
 double least_capacity(const TransportMaterial& material, Transported quantity, double density);
 /// Largest conductivity over that [m^2/s], along the direction that conducts best.
 double largest_diffusivity(const TransportMaterial& material, Transported quantity, double density);

@@ -86,7 +86,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   bool counts(int field, NodeRef node) const { return fields_[field]->counts(node.block); }
   /// Adds up conductance times time of all that touches at each node, and at each tool that has a capacity [J/K].
   void load();
-  /// Of the exchange at a node in this update: how many of its time constants go by.
+  /// Number of time constants of the exchange at a node that go by in this update.
   double constants(const std::vector<NodalQuantity>& nodes, int field, const NodeRef& ref) const;
   /// Sum of a touch's shares in nodes where there is material.
   double whole_of(const Touch& touch) const;

@@ -65,7 +65,7 @@ class Transport final : public Stage {
   void finish_expansion();
   /// Trace of a particle's Kirchhoff stress over initial density [J/kg].
   double pull(const ParticleSet& set, int p) const;
-  /// Of term(p) over the particles awake, in groups: the same bits on any number of threads.
+  /// Sum of term(p) over the particles awake, in groups: the same bits on any number of threads.
   template <class Term>
   double sum_over(const ParticleSet& set, Term&& term);
 
@@ -77,7 +77,7 @@ class Transport final : public Stage {
   std::unique_ptr<PoreWater> water_;
   SurfaceHeat* surface_ = nullptr;
   std::vector<double> sums_;
-  /// Of expansion against the stress, the mean of that before and after it [J]: what the stress has taken, and the
+  /// Work of expansion against the stress, the mean of that before and after it [J]: what the stress has taken, and the
   /// first half of what it has not.
   double expansion_work_ = 0.0, expansion_begun_ = 0.0;
   bool begun_ = false;  ///< the stress has not taken it everywhere

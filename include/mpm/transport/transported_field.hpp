@@ -48,7 +48,7 @@
 
 namespace mpm {
 
-/// Of a stable step: with the shape function dirac longer updates grow at nodes that a point barely reaches.
+/// Part of a stable step: with the shape function dirac longer updates grow at nodes that a point barely reaches.
 inline constexpr double kOfPoints = 0.25;
 
 /// Values that contradict each other, or a quantity that is out of its range. what() names the place.

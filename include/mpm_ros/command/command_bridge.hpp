@@ -49,7 +49,7 @@ class CommandBridge {
   /// `take`: gets (body, message, sender).
   template <typename Message, typename Taking>
   void subscribe(ros::NodeHandle& node, int body, const char* leaf, Taking take);
-  /// Whether commands are heard on the topic.
+  /// True if commands are heard on the topic.
   bool commanded_on(const std::string& topic) const;
   void listen(ros::NodeHandle& node, const char* topic, bool fixed);
   void hear(const tf2_msgs::TFMessage& message, const std::string& sender, bool fixed);

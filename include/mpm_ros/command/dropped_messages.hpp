@@ -20,7 +20,7 @@ class DroppedMessages {
 
   /// Asks roscpp. Any thread but those of its XML-RPC server.
   void look();
-  /// What getBusStats answers: statistics of publications, of subscriptions, of services.
+  /// Reads the answer of getBusStats: statistics of publications, of subscriptions, of services.
   void read(const XmlRpc::XmlRpcValue& statistics);
   /// So far, of connections that have ended too.
   std::uint64_t count() const;

@@ -19,7 +19,7 @@ class TurningTwists {
   void hold(int body, const mpm::Twist& twist, const mpm::Quat& orientation);
   /// Another command moves the body.
   void drop(int body) { held_.erase(body); }
-  /// What is to be applied at the sync point `now` [ns], where bodies have turned.
+  /// Commands that are to be applied at the sync point `now` [ns], where bodies have turned.
   std::vector<AppliedCommand> next(const std::vector<mpm::BodyState>& bodies, std::int64_t now);
   /// For checkpoints.
   void serialise(mpm::StateArchive& archive);

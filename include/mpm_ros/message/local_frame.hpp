@@ -25,7 +25,7 @@ struct LocalFrame {
 /// grid's middle, in round numbers, and zero along axes where zero serves.
 LocalFrame local_frame(const mpm::GridDefinition& grid, const std::string& world);
 
-/// What users should know of it, one line; empty where it is the world's.
+/// Note for users, one line; empty where it is the world's.
 std::string note_on(const LocalFrame& frame);
 
 /// For /tf_static.

@@ -41,7 +41,7 @@ constexpr const char* kCmdWrench = "cmd_wrench";
 constexpr const char* kCmdWrenchStamped = "cmd_wrench_stamped";
 constexpr const char* kCmdPose = "cmd_pose";
 
-/// What comes after the body's name on the topics of its commands.
+/// Names that come after the body's on the topics of its commands.
 constexpr std::array<const char*, 6> kCommandLeaves{kCmdVel,    kCmdVelStamped,    kCmdVelBody,
                                                     kCmdWrench, kCmdWrenchStamped, kCmdPose};
 

@@ -23,7 +23,7 @@ class FramePoses {
   /// to be repeated cannot be read; mpm::StoppedError: a stop was asked for first
   FramePoses(const ros::NodeHandle& node, const NodeParameters& parameters, const std::vector<std::string>& set);
 
-  /// Whether there are such bodies.
+  /// True if there are such bodies.
   bool any() const { return !starts_.empty(); }
   const std::vector<std::string>& set() const { return set_; }
   /// For the next run of that scene: the poses of those frames that `look` knows (by the body's index); the others

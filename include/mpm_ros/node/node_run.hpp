@@ -16,11 +16,11 @@ namespace mpm_ros {
 RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
                        const std::string& topics_below, const std::vector<std::string>& set = {});
 
-/// What only all together show: no recording over what is read, particle fields that there are, a clock that can be set
-/// back. @throws ParameterError
+/// Checks that need all of them together: no recording over what is read, particle fields that there are, a clock that
+/// can be set back. @throws ParameterError
 void check(const NodeParameters& parameters, const RunOptions& options, const mpm::Scene& scene);
 
-/// What the node reads of its scene, the commands that it is to repeat, and what it records: for the names of further
+/// Files of the scene, of the commands that are to be repeated, and of the record: for the names of further
 /// files. `record`: the bag of the run, or empty.
 mpm::FilesInUse files_of(const NodeParameters& parameters, const mpm::Scene& scene, const std::string& record);
 

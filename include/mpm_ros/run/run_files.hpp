@@ -1,4 +1,4 @@
-// What of a run's files is read and what is written, so that no output costs the scene, a file of it, a recording or
+// Files that a run reads and writes, so that no output costs the scene, a file of it, a recording or
 // another output.
 #pragma once
 

@@ -85,7 +85,7 @@ class RunOutputs {
   ContactForces contact_forces(const Contacts& contacts) const;
   BodyStates body_states() const;
   ros::Time stamp() const;
-  /// Of clouds and markers.
+  /// Frame of clouds and markers.
   const LocalFrame& local_frame() const { return local_; }
   /// After a checkpoint was loaded. @throws mpm::CheckpointError, which names it, where the particles do not remember
   /// what the chosen fields and global quantities need
@@ -106,7 +106,7 @@ class RunOutputs {
   /// Throws on all ranks if a sink has failed on one. @throws BagError on the others
   void end_writing();
   void read_contacts();
-  /// What does not change: where frames are, shapes.
+  /// Writes what does not change: places of frames, shapes.
   void write_static();
   void write_contacts();
   void write_bodies();

@@ -30,7 +30,7 @@ namespace {
 constexpr std::array<const char*, 3> kPlace = {"x", "y", "z"};
 constexpr std::array<const char*, 3> kStart = {"X", "Y", "Z"};
 
-/// What may stand in an expression.
+/// Names that may stand in an expression.
 std::string variables(FunctionPlaces places, const NamedConstants& constants) {
   std::string text = places == FunctionPlaces::present
                          ? "an expression may use t, x, y, z, pi, e and functions such as sin(...)"

@@ -69,7 +69,7 @@ double VolumeCorrection::share_along(const Grid& grid, int axis, int node) const
   const int last = layout.last_node(axis), from_face = std::min(node, last - node);
   if (axis == 0 && axisymmetric(geometry_)) {
     if (from_face < 0) return 0.0;
-    // Of the hat function: integral of r over a cell's half, in cells.
+    // Integral of r times the hat function over a cell's half, in cells.
     const double radius = node + layout.origin(0) * layout.inverse_cell(0);
     const double inner = node > 0 ? radius / 2 - 1.0 / 6.0 : 0.0, outer = node < last ? radius / 2 + 1.0 / 6.0 : 0.0;
     return kTurn * layout.cell(0) * (inner + outer);

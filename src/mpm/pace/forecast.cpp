@@ -45,7 +45,7 @@ namespace {
 
 constexpr double kMostlyAwake = 0.9;  ///< part of the particles: fewer sleep than make a difference
 
-/// What other steps than those that were timed may cost.
+/// Reasons why other steps than those that were timed may cost more or less.
 std::string unknown_text(const Forecast& forecast) {
   if (forecast.of_run()) return {};
   std::string text;

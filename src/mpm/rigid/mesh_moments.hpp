@@ -11,8 +11,8 @@ namespace mpm {
 /// Exact, for parts that do not overlap.
 SolidMoments moments_of(const TriangleMesh& mesh);
 
-/// Of the union of meshes: the sum of theirs, less what is counted twice. Where bodies overlap in a box along the axes
-/// this is exact, else to about a thousandth of what overlaps.
+/// Moments of the union of meshes: the sum of theirs, less what is counted twice. Where bodies overlap in a box along
+/// the axes this is exact, else to about a thousandth of what overlaps.
 SolidMoments moments_of_union(const std::vector<const SignedMesh*>& meshes);
 
 }  // namespace mpm

@@ -173,7 +173,7 @@ class Parts {
     return *part.own;
   }
 
-  /// Whether a vertex of the part lies outside of the surface.
+  /// True if a vertex of the part lies outside of the surface.
   bool any_outside(const Part& part, const SignedMesh& surface) const {
     return std::any_of(vertices_[part.number].begin(), vertices_[part.number].end(),
                        [&](int v) { return surface.at(solid_.mesh.vertices[v]).distance > touch_; });

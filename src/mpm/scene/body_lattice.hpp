@@ -24,7 +24,7 @@ struct Lattice {
 /// Along each axis of the scene's grid; the others have a spacing of 0.
 std::array<Lattice, 3> body_lattice(const BodyDefinition& body, const Scene& scene);
 
-/// Of a shape that lies on these lattices [m^3]; of one about an axis, of the whole turn.
+/// Volume of a shape that lies on these lattices [m^3]; of one about an axis, of the whole turn.
 double body_volume(const Region& region, const Scene& scene, const std::array<Lattice, 3>& lattices);
 
 }  // namespace mpm

@@ -12,7 +12,7 @@ namespace {
 
 const std::string kOperators = "*+-^<>=!&|?";  ///< behind a number that begins an expression; "5 /s" is a quantity
 
-/// Of the constants above it.
+/// Value by the constants above it.
 double from_others(const Value& value, const SceneConstants& constants) {
   const std::string text = value.text();
   try {

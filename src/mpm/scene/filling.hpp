@@ -75,7 +75,7 @@ class Filling {
   }
   Vec3 jittered(const Vec3& point, std::mt19937_64& random) const;
   bool is_cut_out(const Vec3& place) const;
-  /// What a volume about the axis counts by its radius; else 1.
+  /// Factor by which a volume about the axis counts at that radius; else 1.
   double turn(double x) const;
   /// Volume of the region that lies in what is cut out [m^3].
   double cut_out_volume() const;

@@ -31,9 +31,9 @@ struct HeightLimit {
 };
 /// Half a gigabyte of heights, 160 m by 160 m in steps of 2 cm.
 inline constexpr HeightLimit kGroundLimit{1 << 26, "a map"};
-/// What is drawn, searched and sent to RViz as triangles, two a point.
+/// Maps that are drawn, searched and sent to RViz as triangles, two a point.
 inline constexpr HeightLimit kToolLimit{1 << 20, "a map of a rigid body"};
-/// What is read in a second or two.
+/// Maps that are read in a second or two.
 inline constexpr HeightLimit kTextLimit{1 << 24, "a map in text (write it as GeoTIFF)"};
 
 /// Reads what the file's first bytes say that it is: PNG or PGM (grey, of white), TIFF, else text.

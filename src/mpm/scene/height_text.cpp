@@ -81,7 +81,7 @@ std::vector<double> even_places(const HeightTable& table, int axis) {
   return places;
 }
 
-/// Whether three columns are the x, y and height of points that lie on a lattice, each of them once.
+/// True if three columns are the x, y and height of points that lie on a lattice, each of them once.
 bool lists_places(const HeightTable& table) {
   if (table.columns != 3 || table.rows < kFewestPlaces) return false;
   const double along_x = static_cast<double>(even_places(table, 0).size());

@@ -55,7 +55,7 @@ std::string first_comment(const fs::path& path) {
   return line.empty() || line[0] != '#' || begin == std::string::npos ? "" : line.substr(begin);
 }
 
-/// What to do about a path at which there is no scene.
+/// Advice on a path at which there is no scene.
 std::string advice_for_path(const std::string& path) {
   if (path[0] == '~') return "~ is not the home folder here, write the path out";
   if (path.find("://") != std::string::npos) return "a scene is a path, or the name of a shipped scene";

@@ -67,7 +67,7 @@ std::string Value::where() const {
 
 void Value::fail(const std::string& what) const {
   std::string text = where() + ": " + what;
-  // What is wrong with a text that looks right.
+  // A character may look right and be another.
   const std::string odd = is_text() ? odd_character(node_.Scalar()) : "";
   if (!odd.empty() && what.find(odd) == std::string::npos) text += "; " + odd;
   throw SceneError(text);

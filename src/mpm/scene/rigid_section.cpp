@@ -213,7 +213,7 @@ void read_divides(const Value& value, const Scene& scene, RigidBodyDefinition& b
   }
 }
 
-/// Whether `contact` says the friction of tools without one of their own.
+/// True if `contact` says the friction of tools without one of their own.
 bool names_friction(const Map& root) {
   const auto contact = root.find("contact");
   return contact && contact->is_map() && (contact->node()["friction"] || contact->node()["law"]);

@@ -57,7 +57,7 @@ std::string asymmetry_of_body(const BodyDefinition& body, double plane, double t
   return {};
 }
 
-/// Whether an axis is one of a tensor's own.
+/// True if an axis is one of a tensor's own.
 bool along_axis(const Symmetric3<double>& tensor, int axis) {
   const std::array<double, 3> off = {tensor.yz, tensor.xz, tensor.xy};  // of each, the one that it is not in
   for (int other = 0; other < 3; ++other) {
@@ -97,8 +97,8 @@ std::string asymmetry_of_tool(const RigidBodyDefinition& body, double plane, dou
   return {};
 }
 
-/// Of one quantity that particles carry. Each condition has to be its own mirror image; one on either side is not seen
-/// to be that of the other.
+/// Asymmetry of one quantity that particles carry, in words. Each condition has to be its own mirror image; one on
+/// either side is not seen to be that of the other.
 std::string asymmetry_of_quantity(const QuantityDefinition& quantity, const Scene& scene, double plane,
                                   double tolerance, int axis) {
   const std::string start = fmt::format("transport.{}: ", kQuantityNames[static_cast<std::size_t>(quantity.quantity)]);

@@ -93,7 +93,7 @@ const std::array kUnits = {
     NamedUnit{"%", {0.01, kPlain}},
 };
 
-/// What people write for units that have another name here.
+/// Name that people write for a unit that has another one here.
 struct OtherName {
   const char* name;
   const char* advice;
@@ -127,7 +127,7 @@ bool same_but_for_case(const std::string& a, const std::string& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// What to write in place of a name that is no unit. Names that are merely near are off by a power of ten as soon as
+/// Advice on a name that is no unit. Names that are merely near are off by a power of ten as soon as
 /// the letter that differs is a prefix, so only another case and a slip within a long name are taken as meant.
 std::string advice_for(const std::string& name) {
   std::vector<std::string> meant, all;

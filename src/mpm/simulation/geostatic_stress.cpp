@@ -57,7 +57,7 @@ class ColumnFamilies {
     flat_ = dimensions(definition.geometry) == 2;
     across_ = planar(definition.geometry) ? definition.thickness : 1.0;
   }
-  /// Of a body, with the size across the plane along y.
+  /// Lattice of a body, with the size across the plane along y.
   ParticleLattice lattice_of(const DeformableBody& body) const {
     ParticleLattice lattice = body.lattice.value_or(grid_);
     if (flat_) lattice.spacing.y() = across_;
@@ -181,7 +181,7 @@ Extent extent_of(const DeformableBody& body, int family, Communicator* ranks) {
   return {body.name, family, {-ends[0], -ends[1], -ends[2]}, {ends[3], ends[4], ends[5]}};
 }
 
-/// Of bodies of different columns of which one lies on the other: the stresses leave out what it weighs.
+/// Warns of bodies of different columns of which one lies on the other: the stresses leave out what it weighs.
 void warn_of_other_columns(const std::vector<Extent>& extents, const ColumnFamilies& families, int up, double down,
                            double gap, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < extents.size(); ++i) {

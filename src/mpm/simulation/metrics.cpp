@@ -60,7 +60,7 @@ double statistic(Statistic which, const double* begin, const double* end, Commun
   return std::sqrt(sum_of_all(squares) / count);
 }
 
-/// Of the metrics before it; not a number where one of them is none, or the result is not finite.
+/// Value by the metrics before it; not a number where one of them is none, or the result is not finite.
 double value_of_formula(const MetricDefinition& metric, const std::vector<std::pair<std::string, double>>& before) {
   NamedConstants names = metric.constants;
   for (const auto& [name, value] : before) {

@@ -117,7 +117,7 @@ const Field kFields[] = {
     {"body", "1", kNeedsNothing, [](const View& a) { return static_cast<double>(a.set.index); }},
 };
 
-/// What float32 leaves of a place: together they have it in double precision. For programs; their names cannot be
+/// Rest that float32 leaves of a place: together they have it in double precision. For programs; their names cannot be
 /// written in a scene.
 double float_rest(double place) { return place - static_cast<double>(static_cast<float>(place)); }
 

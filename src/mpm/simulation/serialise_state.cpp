@@ -70,7 +70,7 @@ void serialise_metrics(StateArchive& archive, const std::vector<MetricDefinition
   }
 }
 
-/// What metrics of force and torque remember. False where what is read was written without such metrics.
+/// Keeps what metrics of force and torque remember. False where what is read was written without such metrics.
 /// `rigid_bodies`: of the run. @throws DefinitionError for what is of another number of them
 bool serialise_wrenches(StateArchive& archive, std::size_t rigid_bodies, std::vector<PeriodWrench>& wrenches) {
   const StateArchive::Group group(archive, "wrenches");

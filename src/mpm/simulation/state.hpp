@@ -34,7 +34,7 @@ class LineFit {
   double mean_t_ = 0.0, mean_y_ = 0.0, tt_ = 0.0, ty_ = 0.0;
 };
 
-/// What a rigid body is given by contact, on the way from one sync point to the next.
+/// Impulse and wrench that contact gives a rigid body, on the way from one sync point to the next.
 struct PeriodWrench {
   double time = 0.0;                                            ///< of the last sync point [s]
   Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero();  ///< since the start, there [N s], [N m s]
@@ -161,7 +161,7 @@ struct Simulation::State {
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
 
-/// Whether a metric is a force or a torque on a rigid body.
+/// True if a metric is a force or a torque on a rigid body.
 bool is_wrench(const MetricDefinition& metric);
 
 /// @throws DefinitionError when there is none of that name

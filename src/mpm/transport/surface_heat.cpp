@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kTouches = 1024;  ///< for which there is room at the start; more make their own
 constexpr std::size_t kSharesOfATouch = 8;
 
-/// What is exchanged in a time of so many time constants, over what the difference at its start would exchange.
+/// Exchange in a time of so many time constants, over what the difference at its start would exchange.
 double part_exchanged(double constants) { return constants > 1e-12 ? -std::expm1(-constants) / constants : 1.0; }
 
 }  // namespace

@@ -56,7 +56,7 @@ Number number_at(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// What follows its length of four bytes.
+/// Bytes that follow their length of four bytes.
 std::string_view part_at(std::string_view bytes, std::size_t at) {
   const auto length = number_at<std::uint32_t>(bytes, at);
   if (bytes.size() - at - 4 < length) throw std::out_of_range("it says that it is longer than what it lies in");

@@ -36,7 +36,7 @@ std::string share_text(const std::string& frame, const std::string& node) {
       node, frame);
 }
 
-/// What came and had no effect, since more came than could be kept.
+/// Messages that came and had no effect, since more came than could be kept.
 std::string drop_text(const CommandHealth& commands) {
   return fmt::format(
       "{} commands and {} messages of tf have been dropped, since they came faster than they were taken; send less "

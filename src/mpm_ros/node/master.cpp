@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kBadInput = 2, kMachine = 1;
 
-/// What follows "word:=" on the command line; none where it is not given.
+/// Value after "word:=" on the command line; none where it is not given.
 std::optional<std::string> word_of(int argc, const char* const* argv, const std::string& word) {
   std::optional<std::string> found;
   for (int i = 1; i < argc; ++i) {

@@ -22,7 +22,7 @@ std::string trimmed(const std::string& text) {
 /// Follows quotes and brackets from character to character.
 class Nesting {
  public:
-  /// Whether the character stands outside of all quotes and brackets, which it then may open.
+  /// True if the character stands outside of all quotes and brackets, which it then may open.
   bool outside(char c) {
     const bool outermost = depth_ == 0 && quote_ == 0;
     if (quote_ != 0) {
@@ -55,7 +55,7 @@ bool strip_brackets(std::string& text) {
   return true;
 }
 
-/// Whether "key.path=" stands at that place of the text.
+/// True if "key.path=" stands at that place of the text.
 bool override_at(const std::string& text, std::size_t at) {
   std::size_t end = at;
   const auto in_path = [](char c) {

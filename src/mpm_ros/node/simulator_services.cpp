@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{5000};
 /// [s] of simulated time; its nanoseconds are still a whole number of 64 bits.
 constexpr double kLongestStep = 1e9;
-/// Of one request; each is checked, applied, published and recorded at one sync point.
+/// Number of commands of one request; each is checked, applied, published and recorded at one sync point.
 constexpr std::size_t kMostCommands = 10'000;
 /// How often it looks whether the node is to stop.
 constexpr std::chrono::milliseconds kPoll{50};

@@ -78,7 +78,7 @@ void write_json(const std::string& path, const nlohmann::ordered_json& json) {
   write_whole(path, mpm::json_text(json, 2) + "\n");
 }
 
-/// What a sweep's runs are made of and have left lies in its folder.
+/// Refuses a place in a sweep's folder, where its runs and what they are made of lie.
 void check_outside(const Study& study, const std::string& option, const std::string& path) {
   if (path.empty() || path == kStandardOutput) return;
   const std::string file = mpm::behind_links(path), runs = mpm::behind_links(study.folder() + "/runs");

@@ -226,8 +226,8 @@ class OfflineRun {
     if (isa != info.isa) check_->differs(fmt::format("instruction set {} in place of {}", isa, info.isa));
   }
 
-  /// What is written beside the bag, so that what cannot be is told before the run. Nothing is replaced yet: a run that
-  /// does not come to its start leaves what an earlier one wrote.
+  /// Tries the files that are written beside the bag, so that one that cannot be is told of before the run. Nothing is
+  /// replaced yet: a run that does not come to its start leaves what an earlier one wrote.
   void try_outputs() {
     if (!options_.out.empty()) choose_folder();
     try_summary(options_.summary);

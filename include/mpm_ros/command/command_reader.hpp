@@ -70,6 +70,8 @@ class CommandReader {
   int find_body(const std::string& name) const;
 
  private:
+  /// A twist without a stamp, in the axes that the command names.
+  void take_unstamped(const char* leaf, BodyCommand command, const geometry_msgs::Twist& message);
   void read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,
                   BodyCommand& command, std::string& problem) const;
   void read_wrench(const geometry_msgs::Wrench& wrench, const std::string& frame, const ros::Time& stamp,

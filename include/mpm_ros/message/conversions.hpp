@@ -3,6 +3,7 @@
 
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
 #include <geometry_msgs/Wrench.h>
@@ -31,6 +32,8 @@ mpm::Vec3 from_message(const geometry_msgs::Vector3& message);
 mpm::Vec3 from_message(const geometry_msgs::Point& message);
 mpm::Wrench from_message(const geometry_msgs::Wrench& message);
 mpm::Twist from_message(const geometry_msgs::Twist& message);
+/// The pose of the child frame in its parent, as it stands.
+geometry_msgs::Pose to_pose(const geometry_msgs::Transform& transform);
 /// As it stands; see checked_pose() for what comes from outside.
 mpm::Pose from_message(const geometry_msgs::Pose& message);
 

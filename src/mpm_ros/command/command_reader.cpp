@@ -60,11 +60,7 @@ mpm::Pose CommandReader::find_frame(const std::string& frame, const ros::Time& s
     } catch (const tf2::ExtrapolationException&) {
       transform = frames_.lookupTransform(world_frame_, frame, ros::Time());
     }
-    geometry_msgs::Pose pose;
-    pose.position.x = transform.transform.translation.x;
-    pose.position.y = transform.transform.translation.y;
-    pose.position.z = transform.transform.translation.z;
-    pose.orientation = transform.transform.rotation;
+    const geometry_msgs::Pose pose = to_pose(transform.transform);
     problem = problem_of(pose);
     if (problem.empty()) return checked_pose(pose);
     problem = fmt::format("the transform from {} to {}: {}", world_frame_, frame, problem);
@@ -184,14 +180,20 @@ bool CommandReader::wait_received(std::uint64_t count, std::chrono::milliseconds
   return received_changed_.wait_for(lock, patience, [&] { return received_ >= count; });
 }
 
-void CommandReader::take(int body, const geometry_msgs::Twist& message, const std::string& sender) {
+void CommandReader::take_unstamped(const char* leaf, BodyCommand command, const geometry_msgs::Twist& message) {
   const std::lock_guard<std::mutex> taking(taking_);
+  const int axes = command.frame_body;
+  std::string problem = refusal_of(command.body);
+  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
+  command.frame_body = axes;
+  push_or_refuse(leaf, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::Twist& message, const std::string& sender) {
   BodyCommand command;
   command.body = body;
   command.sender = sender;
-  std::string problem = refusal_of(body);
-  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
-  push_or_refuse(topics::kCmdVel, std::move(command), problem);
+  take_unstamped(topics::kCmdVel, std::move(command), message);
 }
 
 void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender) {
@@ -207,14 +209,10 @@ void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, c
 }
 
 void CommandReader::take_own(int body, const geometry_msgs::Twist& message, const std::string& sender) {
-  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
-  command.body = body;
+  command.body = command.frame_body = body;
   command.sender = sender;
-  std::string problem = refusal_of(body);
-  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
-  command.frame_body = body;
-  push_or_refuse(topics::kCmdVelBody, std::move(command), problem);
+  take_unstamped(topics::kCmdVelBody, std::move(command), message);
 }
 
 void CommandReader::take(int body, const geometry_msgs::Wrench& message, const std::string& sender) {

@@ -20,12 +20,7 @@ constexpr double kFarthestAhead = 1.0;
 std::optional<mpm::Pose> frame_pose(const tf2::BufferCore& transforms, const std::string& world_frame,
                                     const std::string& frame, std::string& problem) {
   try {
-    const geometry_msgs::TransformStamped found = transforms.lookupTransform(world_frame, frame, ros::Time());
-    geometry_msgs::Pose pose;
-    pose.position.x = found.transform.translation.x;
-    pose.position.y = found.transform.translation.y;
-    pose.position.z = found.transform.translation.z;
-    pose.orientation = found.transform.rotation;
+    const geometry_msgs::Pose pose = to_pose(transforms.lookupTransform(world_frame, frame, ros::Time()).transform);
     problem = problem_of(pose);
     if (problem.empty()) return checked_pose(pose);
   } catch (const std::runtime_error& error) {  // tf2's
@@ -74,10 +69,7 @@ void FrameFollower::look(Followed& followed, const ros::Time& next) {
   geometry_msgs::PoseStamped pose;
   pose.header.stamp = transform.header.stamp;
   pose.header.frame_id = world_frame_;
-  pose.pose.position.x = transform.transform.translation.x;
-  pose.pose.position.y = transform.transform.translation.y;
-  pose.pose.position.z = transform.transform.translation.z;
-  pose.pose.orientation = transform.transform.rotation;
+  pose.pose = to_pose(transform.transform);
   reader_.follow(followed.body, pose, !latest_);
 }
 

@@ -53,6 +53,15 @@ geometry_msgs::Pose to_message(const mpm::Pose& pose) {
   return message;
 }
 
+geometry_msgs::Pose to_pose(const geometry_msgs::Transform& transform) {
+  geometry_msgs::Pose pose;
+  pose.position.x = transform.translation.x;
+  pose.position.y = transform.translation.y;
+  pose.position.z = transform.translation.z;
+  pose.orientation = transform.rotation;
+  return pose;
+}
+
 geometry_msgs::Twist to_message(const mpm::Twist& twist) {
   geometry_msgs::Twist message;
   message.linear = to_vector(twist.linear);

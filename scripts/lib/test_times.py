@@ -50,7 +50,7 @@ def main():
         print("Of the runs, summed over tests that ran beside each other:")
         for label, seconds in sorted(labels.items(), key=lambda row: -row[1]):
             print(f"  {seconds:7.1f}  {label}")
-        print(f"The {SLOWEST} slowest cases, and what the heads of their files say:")
+        print(f"The {SLOWEST} slowest cases (of files that were not run again: when they last were), and the cost that their files state:")
         for seconds, name, cost in sorted(cases, reverse=True)[:SLOWEST]:
             print(f"  {seconds:7.1f}  {name}" + (f"  (file: {cost})" if cost else ""))
 

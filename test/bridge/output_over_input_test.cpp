@@ -146,7 +146,7 @@ TEST_F(OutputOverInput, WhatARunGoesOnFrom) {
     report.*option = file("run.gif");
     std::ostringstream out, err;
     EXPECT_EQ(run_report(report, out, err, false), ReportResult::bad_input);
-    EXPECT_NE(err.str().find("bag"), std::string::npos) << err.str();
+    EXPECT_NE(err.str().find("would overwrite the bag"), std::string::npos) << err.str();
     fs::remove(file("run.gif"));
     report.*option = "";
   }

@@ -222,7 +222,7 @@ TEST_F(Drive, WithoutAPoseABodyBeginsWhereItsFrameIs) {
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
   rosbag::Bag recorded(bag);
   rosbag::View infos(recorded, rosbag::TypeQuery("mpm_ros/RunInfo"));
-  EXPECT_NE(infos.begin()->instantiate<RunInfo>()->scene_text.find("0.12"), std::string::npos);
+  EXPECT_NE(infos.begin()->instantiate<RunInfo>()->scene_text.find("0.120000000"), std::string::npos);
 }
 
 }  // namespace drive_node_test

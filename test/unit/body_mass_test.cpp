@@ -5,14 +5,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace body_mass_test {
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::string scene_of(const std::string& geometry, const std::string& grid, const std::string& shape,
                      const std::string& rest = "", const std::string& of_body = "") {

@@ -1,5 +1,5 @@
 // Transport with numbers far from those that were thought of: stages without end, contact that conducts faster than a
-// step, budgets in which nothing is exchanged, bodies that start strained by heat. All together take some 2 s.
+// step, budgets in which nothing is exchanged, bodies that start strained by heat. Cost: 2 s.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -21,7 +21,7 @@ class StoppedError : public Error {
 class StopCheck {
  public:
   /// `stop` may be empty. `during`: what is stopped, as in "while {}".
-  StopCheck(std::function<bool()> stop, std::string during, std::uint32_t every = 1)
+  StopCheck(std::function<bool()> stop, std::string during, std::uint32_t every = 1024)
       : stop_(std::move(stop)), during_(std::move(during)), every_(every) {}
   /// @throws StoppedError
   void operator()() {

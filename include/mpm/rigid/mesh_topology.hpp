@@ -34,7 +34,7 @@ SolidMesh solid_mesh(const TriangleMesh& mesh);
 /// holes are with the body around them. The union of the groups is the solid. One group when there is one part, or all
 /// are apart.
 /// @throws RigidError for a body inside another one, a hole in none, holes that overlap, or too many parts
-std::vector<SolidMesh> disjoint_groups(const SolidMesh& solid);
+std::vector<SolidMesh> disjoint_groups(SolidMesh solid);
 
 /// Enclosed volume [m^3]; negative for a closed mesh turned inside out.
 double signed_volume(const TriangleMesh& mesh);

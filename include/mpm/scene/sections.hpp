@@ -13,6 +13,9 @@
 
 namespace mpm {
 
+/// Material of a deformable body.
+const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& scene);
+
 /// `units`
 UnitSystem read_units(const Value& value);
 /// `constants`, after units

@@ -63,8 +63,6 @@ class Transport final : public Stage {
   void expand(double part);
   /// Books the second half of the work of an expansion, once the stress has taken it.
   void finish_expansion();
-  /// Trace of a particle's Kirchhoff stress over initial density [J/kg].
-  double pull(const ParticleSet& set, int p) const;
   /// Sum of term(p) over the particles awake, in groups: the same bits on any number of threads.
   template <class Term>
   double sum_over(const ParticleSet& set, Term&& term);

@@ -25,6 +25,8 @@ struct LocalFrame {
 /// grid's middle, in round numbers, and zero along axes where zero serves.
 LocalFrame local_frame(const mpm::GridDefinition& grid, const std::string& world);
 
+/// True for a particle field that is a place: x, y, z, and x0, y0, z0 at the start.
+bool is_place(const std::string& field);
 /// Note for users, one line; empty where it is the world's.
 std::string note_on(const LocalFrame& frame);
 

@@ -41,6 +41,9 @@ constexpr const char* kCmdWrench = "cmd_wrench";
 constexpr const char* kCmdWrenchStamped = "cmd_wrench_stamped";
 constexpr const char* kCmdPose = "cmd_pose";
 
+/// All services of the node.
+constexpr std::array<const char*, 6> kServices{kPause, kReset, kResetWith, kStep, kSaveCheckpoint, kLoadCheckpoint};
+
 /// Names that come after the body's on the topics of its commands.
 constexpr std::array<const char*, 6> kCommandLeaves{kCmdVel,    kCmdVelStamped,    kCmdVelBody,
                                                     kCmdWrench, kCmdWrenchStamped, kCmdPose};

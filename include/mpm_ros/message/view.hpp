@@ -32,6 +32,9 @@ struct View {
   double grid_cell() const;
 };
 
+/// True for a particle field that transport moves, which a scene is about when it names it first.
+bool is_transported(const std::string& field);
+
 /// All of the domain in the picture (empty: of the particles), each particle as large as their spacing; planar scenes
 /// (all y equal) from the front.
 /// `field`: wished for; when the cloud does not have it (or it is empty) what is transported, if the cloud's own fields

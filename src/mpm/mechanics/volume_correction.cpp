@@ -38,7 +38,7 @@ void VolumeCorrection::make_room() {
     const auto room = [&](PaddedArray<double>& array) {
       if (array.size() != size) array.assign(size, 0.0);
     };
-    room(of.volume);
+    if (of.volume.size() != size) of.volume.assign(size, 1.0 / bodies_[s].density);  // which those of fluids stay
     if (bodies_[s].fluid == nullptr) continue;
     for (PaddedArray<double>* array : {&of.fullness, &of.full, &of.squares}) room(*array);
     for (int k = 0; k < dimensions(geometry_); ++k) room(of.slope[k]);
@@ -53,10 +53,7 @@ void VolumeCorrection::find_volumes() {
     const Body& body = bodies_[s];
     PaddedArray<double>& volume = numbers_[s].volume;
     const double start = 1.0 / body.density;
-    if (body.fluid != nullptr) {
-      std::fill(volume.begin(), volume.end(), start);
-      continue;
-    }
+    if (body.fluid != nullptr) continue;
     const int count = body.set->awake();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int p = 0; p < count; ++p) volume[p] = start * determinant(Geometry::load_matrix(body.set->f, p));
@@ -133,15 +130,17 @@ void VolumeCorrection::gather(Fields& fields) {
   }
   for (std::size_t f = 0; f < fields.size(); ++f) {
     double* full = fullness_[f].data();
-    std::transform(full, full + fullness_[f].size(), full, [](double c) { return c < kFull ? 0.0 : 1.0; });
+    const int size = static_cast<int>(fullness_[f].size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int i = 0; i < size; ++i) full[i] = full[i] < kFull ? 0.0 : 1.0;
     transfer_->gather(static_cast<int>(f), fullness_[f],
                       fluids_take([](Numbers& of, auto& to) { to[0] = of.full.data(); }));
   }
-  for (Numbers& of : numbers_) std::fill(of.squares.begin(), of.squares.end(), 0.0);
   for (int c = 0; c < dim; ++c) {
     for (std::size_t f = 0; f < fields.size(); ++f) {
       const Grid& grid = *fields[f];
       one_.resize(grid.blocks.size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
       for (int b = 0; b < grid.blocks.size(); ++b) {
         std::copy_n(grid.velocity.block(b) + c * nodes, nodes, one_.block(b));
       }
@@ -154,7 +153,9 @@ void VolumeCorrection::gather(Fields& fields) {
       const int count = bodies_[s].fluid != nullptr ? bodies_[s].set->awake() : 0;
 #pragma omp parallel for schedule(static) num_threads(threads_)
       for (int p = 0; p < count; ++p) {
-        for (int k = 0; k < dim; ++k) of.squares[p] += of.slope[k][p] * of.slope[k][p];
+        double sum = c == 0 ? 0.0 : of.squares[p];
+        for (int k = 0; k < dim; ++k) sum += of.slope[k][p] * of.slope[k][p];
+        of.squares[p] = sum;
       }
     }
   }

@@ -58,7 +58,7 @@ std::optional<StepCost> StepTimer::time(Simulation& simulation) {
     } while (last_ - begun_ < budget_ && steps_ < kPlentyOfSteps && !stopped() &&
              (end <= 0.0 || static_cast<double>(simulation.time()) < end));
   } catch (const StoppedError&) {
-    // By after_step().
+    // By after_step() or over_budget().
   } catch (const PhysicsError&) {
     // The run itself will tell of it.
   }

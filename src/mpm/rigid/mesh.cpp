@@ -22,8 +22,8 @@ namespace {
 
 constexpr double kThinFaces = 0.05;   // of the surface: less may be thinner than the thickness
 constexpr double kHalfOfFaces = 0.5;  // of the surface: a sharp edge does not make a mesh thin
-constexpr std::size_t kMostSampled =
-    100000;  // of thickness; of a mesh with more triangles every second, third and so on
+/// Number of samples of thickness; of a mesh with more triangles every second, third and so on is taken.
+constexpr std::size_t kMostSampled = 100000;
 
 /// A ray from inside the mesh, for Eigen::BVIntersect: how far to where it leaves.
 struct Ray {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "mpm/rigid/mesh_topology.hpp"
 #include "signed_mesh.hpp"
@@ -227,9 +228,11 @@ class Parts {
 
 }  // namespace
 
-std::vector<SolidMesh> disjoint_groups(const SolidMesh& solid) {
-  if (solid.parts == 1) return {solid};
-  return Parts(solid).groups();
+std::vector<SolidMesh> disjoint_groups(SolidMesh solid) {
+  if (solid.parts > 1) return Parts(solid).groups();
+  std::vector<SolidMesh> whole;
+  whole.push_back(std::move(solid));
+  return whole;
 }
 
 }  // namespace mpm

@@ -27,12 +27,6 @@ bool flows(const MaterialDefinition& material) {
          std::holds_alternative<IdealGasDefinition>(material.law);
 }
 
-const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& scene) {
-  const auto& materials = scene.definition.materials;
-  return *std::find_if(materials.begin(), materials.end(),
-                       [&](const MaterialDefinition& material) { return material.name == body.material; });
-}
-
 /// Initial motion, from the velocity at points spread over the body's bounds.
 struct Start {
   double speed = 0.0;  ///< largest [m/s]
@@ -137,6 +131,12 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
 }
 
 }  // namespace
+
+const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& scene) {
+  const auto& materials = scene.definition.materials;
+  return *std::find_if(materials.begin(), materials.end(),
+                       [&](const MaterialDefinition& material) { return material.name == body.material; });
+}
 
 ExpectedMotion expected_motion(const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;

@@ -13,7 +13,6 @@
 namespace mpm {
 namespace {
 
-constexpr std::uint32_t kPlacesBetweenLooks = 1024;  ///< at whether to stop
 constexpr int kPartsOfPlace = 4;       ///< of a spacing, for what is cut out of places that it does not fill
 constexpr double kSameVolume = 1e-8;   ///< round-off of a sum over all particles
 constexpr double kSameCutOut = 0.002;  ///< what is cut out evens out over many places, and is found about as well
@@ -70,7 +69,7 @@ Filling::Filling(const BodyDefinition& body, const Scene& scene, const std::func
       scene_(&scene),
       axes_(axes_of(scene)),
       lattices_(body_lattice(body, scene)),
-      check_stop_(interrupt, "the bodies were filled with particles", kPlacesBetweenLooks) {
+      check_stop_(interrupt, "the bodies were filled with particles") {
   for (const int axis : axes_) volume_ *= lattices_[axis].spacing;
   volume_ *= scene.definition.across();
   each_place([this](const Vec3&) { ++places_; });

@@ -22,12 +22,6 @@ bool has_own_stiffness(const LawDefinition& law) {
   return !std::holds_alternative<IdealGasDefinition>(law) && !std::holds_alternative<CamClayDefinition>(law);
 }
 
-const MaterialDefinition& of_body(const BodyDefinition& body, const Scene& scene) {
-  const auto& materials = scene.definition.materials;
-  return *std::find_if(materials.begin(), materials.end(),
-                       [&](const MaterialDefinition& material) { return material.name == body.material; });
-}
-
 void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
   const TimeDefinition& time = scene.definition.time;
   if (!(time.end > 0.0)) return;
@@ -35,15 +29,15 @@ void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
   if (std::abs(periods - std::round(periods)) <= std::max(kRoundOff * periods, 1e-6)) return;
   warnings.push_back(
       fmt::format("the run goes on to {:.12g} s, the first sync point after its end at {:.12g} s: sync points are "
-                  "{:.9g} s apart, and "
-                  "what is read at the end is read there; write an end that is a multiple of time.sync, or a time.sync "
+                  "{:.9g} s apart, and what is read at the end is read there; write an end that is a multiple of "
+                  "time.sync, or a time.sync "
                   "that divides it",
                   std::ceil(periods) * sync, time.end, sync));
 }
 
 /// rho g h over the stiffness of a bar that cannot widen, rho c^2.
 void look_at_weight(const BodyDefinition& body, const Scene& scene, std::vector<std::string>& warnings) {
-  const MaterialDefinition& material = of_body(body, scene);
+  const MaterialDefinition& material = material_of(body, scene);
   if (!has_own_stiffness(material.law)) return;
   const Vec3& gravity = scene.definition.gravity;
   const Box bounds = body.region.bounds();
@@ -53,8 +47,8 @@ void look_at_weight(const BodyDefinition& body, const Scene& scene, std::vector<
   if (!std::isfinite(strain) || strain <= kMostWeightStrain) return;
   warnings.push_back(
       fmt::format("body '{}': its own weight would strain it by {:.2g} %: density x gravity x height is {:.3g} Pa, and "
-                  "the stiffness of "
-                  "'{}' {:.3g} Pa; check the units of its stiffness (0.5 is 0.5 Pa, write 0.5 MPa) and of its density",
+                  "the stiffness of '{}' {:.3g} Pa; check the units of its stiffness (0.5 is 0.5 Pa, write 0.5 MPa) "
+                  "and of its density",
                   body.name, 100.0 * strain, material.density * height, material.name, material.density * wave * wave));
 }
 
@@ -104,7 +98,7 @@ void look_at_spray(const Scene& scene, std::vector<std::string>& warnings) {
   const bool spline = method.shape == ShapeKind::bspline2 || method.shape == ShapeKind::bspline3;
   if (!spline || method.transfer.kind != TransferKind::apic) return;
   for (const BodyDefinition& body : scene.bodies) {
-    if (!std::holds_alternative<NewtonianFluidDefinition>(of_body(body, scene).law)) continue;
+    if (!std::holds_alternative<NewtonianFluidDefinition>(material_of(body, scene).law)) continue;
     warnings.push_back(fmt::format(
         "body '{}': with apic and {} drops that come to a wall alone gain energy without bound; take another "
         "shape, as ugimp, or another transfer, as {{fmpm: 2}}, unless the fluid stays together",
@@ -117,7 +111,7 @@ void look_at_spray(const Scene& scene, std::vector<std::string>& warnings) {
 SlowestWave slowest_wave(const Scene& scene) {
   SlowestWave slowest;
   for (const BodyDefinition& body : scene.bodies) {
-    const double speed = MaterialPoint(of_body(body, scene)).wave_speed();
+    const double speed = MaterialPoint(material_of(body, scene)).wave_speed();
     if (!slowest.material.empty() && speed >= slowest.speed) continue;
     slowest = {speed, body.material};
   }

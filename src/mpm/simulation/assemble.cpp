@@ -255,15 +255,17 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
   if (geostatic) add_geostatic_stress(s.definition, s.ranks.get(), s.warnings);
-  StopCheck check_stop(s.ranks ? nullptr : s.interrupt, "the run was put together");  // ranks stop together only
+  const std::string during = "the run was put together";
+  const std::function<bool()> interrupt = s.ranks ? nullptr : s.interrupt;  // ranks stop together only
+  StopCheck check_stop(interrupt, during, 1), check_particle(interrupt, during);
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
   for (DeformableBody& body : s.definition.bodies) {
     check_stop();
     const MaterialDefinition& material = find_material(definition, body);
     s.laws.push_back(make_law(material));
-    s.sets.push_back(
-        make_set(definition, body, material, s.laws.back(), layout, next_id, s.ranks.get(), s.warnings, check_stop));
+    s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, next_id, s.ranks.get(), s.warnings,
+                              check_particle));
     if (!body.filling.empty()) s.notes.push_back(fmt::format("body '{}': {}", body.name, body.filling));
     ParticleSet& set = s.sets.back();
     const int number = static_cast<int>(s.sets.size()) - 1;

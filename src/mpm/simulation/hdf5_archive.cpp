@@ -66,7 +66,7 @@ bool Hdf5Id::close() {
   return close_(std::exchange(id_, -1)) >= 0;
 }
 
-Hdf5Silence::Hdf5Silence() {
+void silence_hdf5() {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // of this thread, where the library knows threads
   // The library has asked to be closed at exit before, when it was first called; what is asked for later comes first.
@@ -75,6 +75,7 @@ Hdf5Silence::Hdf5Silence() {
 
 Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  silence_hdf5();
   if (const std::string problem = problem_with(path); !problem.empty()) {
     throw CheckpointError(
         fmt::format("checkpoint {}: cannot be written: {}; check its folder and the space on its disk", path, problem));
@@ -142,6 +143,7 @@ void Hdf5Writer::fail() const { throw not_written_whole(path_, disk_.error); }
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  silence_hdf5();
   if (const std::string refused = refused_input(path); !refused.empty())
     throw CheckpointError(fmt::format("checkpoint {}: {}", path, refused));
   if (H5Fis_hdf5(path.c_str()) <= 0) {

@@ -38,12 +38,9 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
-/// From its making on the library prints no errors: they become ours. Not only while a file is open: what a damaged
-/// file leaves open is closed when the program ends, in whichever thread that is.
-class Hdf5Silence {
- public:
-  Hdf5Silence();
-};
+/// From here on the library prints no errors: they become ours. Not only while a file is open: what a damaged file
+/// leaves open is closed when the program ends, in whichever thread that is.
+void silence_hdf5();
 
 /// What is told of a disk that did not take all. `error`: a value of errno; 0: not known.
 CheckpointError not_written_whole(const std::string& path, int error);
@@ -71,7 +68,6 @@ class Hdf5Writer final : public StateArchive {
   Hdf5Id make(const std::string& name, Number number, std::size_t count, std::size_t chunk, H5D_alloc_time_t placed);
   [[noreturn]] void fail() const;
   std::string path_;
-  Hdf5Silence silence_;  // first, so that closing is silent too
   TolerantDisk disk_;
   Hdf5Id file_, make_groups_;
 };
@@ -97,7 +93,6 @@ class Hdf5Reader final : public StateArchive {
  private:
   Hdf5Id open(const std::string& name) const;
   std::string path_;
-  Hdf5Silence silence_;
   Hdf5Id file_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/simulation/layout.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/stages.hpp"
 #include "mpm/transport/transported_field.hpp"
@@ -58,15 +59,15 @@ std::string material_cause(const MaterialDefinition& material, const TransportMa
   const double weight = kGravity * (own.fluid_density > 0.0 ? own.fluid_density : kWater);
   return fmt::format(
       "materials.{}.permeability: over the viscosity it is {:.3g} m^2/(Pa s), a hydraulic conductivity of {:.3g} m/s "
-      "(gravel: 0.01); a conductivity in m/s is no permeability: multiply it by viscosity / (density g), about 1e-7 m "
-      "s "
-      "for water",
+      "(gravel: 0.01); a conductivity in m/s is no permeability: multiply it by viscosity / (density g), about 1e-7 "
+      "m s for water",
       material.name, most, most * weight);
 }
 
 TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& quantity,
                       const std::vector<std::string>& used, double cell, double dt) {
   TransportWork work;
+  work.step = dt;
   work.quantity = kQuantityNames[static_cast<std::size_t>(quantity.quantity)];
   double capacity = std::numeric_limits<double>::infinity();
   std::string conductor;
@@ -103,18 +104,12 @@ TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& q
   return work;
 }
 
-double smallest_cell(const SimulationDefinition& d) {
-  double cell = std::numeric_limits<double>::infinity();
-  for (const int axis : axes_of(d.geometry)) cell = std::min(cell, d.grid.cell[axis]);
-  return cell;
-}
-
 }  // namespace
 
 std::vector<TransportWork> transport_work(const SimulationDefinition& d, const std::vector<std::string>& materials) {
   std::vector<TransportWork> all;
   if (d.transport.quantities.empty()) return all;
-  const double cell = smallest_cell(d), dt = longest_step(d, materials, cell);
+  const double cell = layout_of(d).smallest_cell(), dt = longest_step(d, materials, cell);
   for (const QuantityDefinition& quantity : d.transport.quantities) {
     all.push_back(work_of(d, quantity, materials, cell, dt));
   }
@@ -127,9 +122,10 @@ std::string transport_warning(const SimulationDefinition& d, const std::vector<s
     if (own.stages > most.stages) most = own;
   }
   if (most.stages < kManyStages) return {};
-  const double dt = longest_step(d, materials, smallest_cell(d)), sync = 1e-9 * static_cast<double>(d.time.sync);
-  const std::string text = fmt::format("{}: a step of {:.3g} s takes {:.3g} stages of it", most.cause, dt, most.stages);
-  if (most.stages <= kMostStages && std::ceil(sync / dt) * most.stages <= kMostSteps) {
+  const double sync = 1e-9 * static_cast<double>(d.time.sync);
+  const std::string text =
+      fmt::format("{}: a step of {:.3g} s takes {:.3g} stages of it", most.cause, most.step, most.stages);
+  if (most.stages <= kMostStages && std::ceil(sync / most.step) * most.stages <= kMostSteps) {
     return text +
            ", each a pass over the particles, which sets the pace: check the number and its unit, or make grid.cell "
            "larger";

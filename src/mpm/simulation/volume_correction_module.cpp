@@ -19,10 +19,8 @@ void add_volume_correction(RunParts& parts) {
     any = any || fluid != nullptr;
   }
   if (!any) return;
-  double cell = 1.0;
+  double cell = definition.across();
   for (int k = 0; k < parts.layout().dim(); ++k) cell *= parts.layout().cell(k);
-  if (planar(definition.geometry)) cell *= definition.thickness;
-  if (definition.geometry == GeometryKind::line) cell *= definition.area;
   const ShapeKind shape = definition.method.shape;
   parts.modules.add(std::make_unique<VolumeCorrection>(std::move(bodies), definition.geometry, shape, parts.threads,
                                                        parts.make_transfer(shape), cell));

@@ -9,6 +9,7 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/math/dimension.hpp"
+#include "visits.hpp"
 
 namespace mpm {
 namespace {
@@ -44,13 +45,10 @@ void Transport::prepare_expansion() {
 
 template <class Term>
 double Transport::sum_over(const ParticleSet& set, Term&& term) {
-  const int groups = (set.awake() + kGainGroup - 1) / kGainGroup;
-  sums_.assign(groups, 0.0);
-#pragma omp parallel for schedule(static) num_threads(parts_.threads)
-  for (int g = 0; g < groups; ++g) {
-    const int end = std::min(set.awake(), (g + 1) * kGainGroup);
-    for (int p = g * kGainGroup; p < end; ++p) sums_[g] += term(p);
-  }
+  sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
+  each_group(set.awake(), parts_.threads, [&](int first, int last, int group) {
+    for (int p = first; p < last; ++p) sums_[group] += term(p);
+  });
   return std::accumulate(sums_.begin(), sums_.end(), 0.0);
 }
 
@@ -64,17 +62,19 @@ void Transport::expand(double part) {
     if (set.free_strain < 0) continue;
     double* strain = set.brought[set.free_strain].values.data();
     double* grows = set.brought[set.free_strain + 2].values.data();
-    expansion_begun_ += sum_over(set, [&](int p) {
-      double stretch = 1.0;
-      for (const auto& field : fields_) {
-        const double by_one = field->material(static_cast<int>(s)).expansion;
-        stretch *= 1.0 + by_one * (field->values(static_cast<int>(s))[p] - field->definition().reference);
-      }
-      const double grown = part * (stretch - 1.0 - strain[p]);
-      const double by = std::log1p(grown / (1.0 + strain[p]));
-      strain[p] += grown;
-      grows[p] += by;
-      return -0.5 * set.mass_of(p) * pull(set, p) * by;
+    with_geometry(parts_.geometry, [&](auto kind) {
+      expansion_begun_ += sum_over(set, [&](int p) {
+        double stretch = 1.0;
+        for (const auto& field : fields_) {
+          const double by_one = field->material(static_cast<int>(s)).expansion;
+          stretch *= 1.0 + by_one * (field->values(static_cast<int>(s))[p] - field->definition().reference);
+        }
+        const double grown = part * (stretch - 1.0 - strain[p]);
+        const double by = std::log1p(grown / (1.0 + strain[p]));
+        strain[p] += grown;
+        grows[p] += by;
+        return -0.5 * set.mass_of(p) * trace(kind.load_symmetric(set.tau, p)) * by;
+      });
     });
   }
   begun_ = true;
@@ -88,25 +88,23 @@ void Transport::finish_expansion() {
     const double* strain = set.brought[set.free_strain].values.data();
     const double* taken = set.brought[set.free_strain + 1].values.data();
     double* grows = set.brought[set.free_strain + 2].values.data();
-    expansion_work_ += sum_over(set, [&](int p) {
-      const double by = grows[p];
-      if (by == 0.0) return 0.0;
-      if (taken[p] != strain[p]) {
-        left.store(true, std::memory_order_relaxed);
-        return 0.0;
-      }
-      grows[p] = 0.0;
-      return -0.5 * set.mass_of(p) * pull(set, p) * by;
+    with_geometry(parts_.geometry, [&](auto kind) {
+      expansion_work_ += sum_over(set, [&](int p) {
+        const double by = grows[p];
+        if (by == 0.0) return 0.0;
+        if (taken[p] != strain[p]) {
+          left.store(true, std::memory_order_relaxed);
+          return 0.0;
+        }
+        grows[p] = 0.0;
+        return -0.5 * set.mass_of(p) * trace(kind.load_symmetric(set.tau, p)) * by;
+      });
     });
   }
   begun_ = left;
   if (begun_) return;
   expansion_work_ += expansion_begun_;
   expansion_begun_ = 0.0;
-}
-
-double Transport::pull(const ParticleSet& set, int p) const {
-  return with_geometry(parts_.geometry, [&](auto kind) { return trace(kind.load_symmetric(set.tau, p)); });
 }
 
 void Transport::step_begun(StepContext&) { finish_expansion(); }

@@ -28,12 +28,12 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
       reader_(bodies, world_frame, prefix_, frames_, queue, health),
       follower_(frames, world_frame, frames_, reader_, health, latest_frames),
       dropped_commands_([this](const std::string& topic) { return commanded_on(topic); }),
-      dropped_transforms_([tf = node.resolveName("/tf")](const std::string& topic) { return topic == tf; }) {
+      dropped_transforms_([tf = node.resolveName(topics::kTf)](const std::string& topic) { return topic == tf; }) {
   if (latest_commands) reader_.ignore_stamps();
   own_frames_.insert(bodies.begin(), bodies.end());
   for (const std::string& frame : frames) own_frames_.erase(frame);
-  listen(node, "/tf", false);
-  listen(node, "/tf_static", true);
+  listen(node, topics::kTf, false);
+  listen(node, topics::kTfStatic, true);
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
     reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);

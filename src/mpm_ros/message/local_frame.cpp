@@ -7,15 +7,19 @@
 #include <cstring>
 
 namespace mpm_ros {
+
+bool is_place(const std::string& field) {
+  const bool axis = !field.empty() && field.front() >= 'x' && field.front() <= 'z';
+  return axis && (field.size() == 1 || field.substr(1) == "0");
+}
+
 namespace {
 
 constexpr double kResolved = 0.01;              ///< of a cell
 constexpr double kFloatStep = 1.0 / (1 << 23);  ///< largest distance of float32 numbers, as a part of them
 
 bool is_place_of(const sensor_msgs::PointField& field) {
-  const std::string& name = field.name;
-  const bool axis = !name.empty() && name.front() >= 'x' && name.front() <= 'z';
-  return axis && (name.size() == 1 || name.substr(1) == "0") && field.datatype == sensor_msgs::PointField::FLOAT32;
+  return is_place(field.name) && field.datatype == sensor_msgs::PointField::FLOAT32;
 }
 
 }  // namespace

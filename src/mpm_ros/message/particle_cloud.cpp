@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm_ros/message/local_frame.hpp"
 
 namespace mpm_ros {
 
@@ -83,8 +84,7 @@ ParticleCloud::ParticleCloud(ParticleSelection selection)
   const std::size_t written = names_.size();
   for (std::size_t column = 0; column < written && selection_.origin != mpm::Vec3::Zero(); ++column) {
     const std::string name = names_[column];
-    const bool place = name.front() >= 'x' && name.front() <= 'z' && (name.size() == 1 || name.substr(1) == "0");
-    if (!place) continue;
+    if (!is_place(name)) continue;
     places_.push_back({column, names_.size(), selection_.origin[name.front() - 'x']});
     names_.push_back(name + " rest");
   }

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mpm/transport/definition.hpp"
+
 namespace mpm_ros {
 
 namespace {
@@ -28,9 +30,7 @@ std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::strin
   };
   if (there(wished)) return wished;
   const std::string first = names.size() > 4 ? names[4] : std::string();  // after x, y, z and id
-  for (const char* transported : {"temperature", "concentration", "pore_pressure"}) {
-    if (first == transported) return first;  // what the scene is about
-  }
+  if (is_transported(first)) return first;                                // what the scene is about
   for (const char* name : {"speed", "p"}) {
     if (there(name)) return name;
   }
@@ -103,6 +103,10 @@ void fit_grid(YAML::Node display, const View& view) {
 }
 
 }  // namespace
+
+bool is_transported(const std::string& field) {
+  return std::find(mpm::kQuantityNames.begin(), mpm::kQuantityNames.end(), field) != mpm::kQuantityNames.end();
+}
 
 double View::radius() const { return distance / kDistance; }
 

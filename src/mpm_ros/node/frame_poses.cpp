@@ -1,11 +1,8 @@
 #include "mpm_ros/node/frame_poses.hpp"
 
 #include <fmt/format.h>
-#include <mpm_ros/RunInfo.h>
 #include <ros/callback_queue.h>
 #include <ros/console.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 #include <yaml-cpp/yaml.h>
@@ -13,37 +10,22 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "mpm/math/input_file.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/projected.hpp"
 #include "mpm_ros/command/frame_follower.hpp"
-#include "mpm_ros/message/bag_damage.hpp"
-#include "mpm_ros/message/bag_error.hpp"
-#include "mpm_ros/message/bag_parts.hpp"
+#include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/sim_clock.hpp"
+#include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
 
 namespace {
 
-/// The scene of a recorded run, YAML.
+/// The scene of a recorded run, YAML; empty where it says none. @throws BagError
 std::string recorded_scene(const std::string& bag_path) {
-  try {
-    const std::string first = parts_of(bag_path).front();
-    for (const std::string& wrong : {mpm::refused_input(first), bag_damage(first)})
-      if (!wrong.empty()) throw BagError(fmt::format("bag {}: {}", bag_path, wrong));
-    rosbag::Bag bag(parts_of(bag_path).front(), rosbag::bagmode::Read);
-    rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<RunInfo>()));
-    for (const rosbag::MessageInstance& instance : view) {
-      if (const auto info = instance.instantiate<RunInfo>()) return info->scene_text;
-    }
-  } catch (const ros::Exception& error) {
-    throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
-  } catch (const std::bad_alloc&) {
-    throw BagError(fmt::format("bag {} is damaged: it asks for more memory than there is", bag_path));
-  }
-  return {};
+  const RunBag bag(bag_path, {});
+  return bag.info() ? bag.info()->scene_text : std::string();
 }
 
 /// tf, heard on a queue of its own, since nothing else spins yet.
@@ -53,7 +35,7 @@ class TfEar {
     node.setCallbackQueue(&queue_);
     for (const bool fixed : {false, true}) {
       subscribers_[fixed ? 1 : 0] = node.subscribe<tf2_msgs::TFMessage>(
-          fixed ? "/tf_static" : "/tf", 1000,
+          fixed ? topics::kTfStatic : topics::kTf, 1000,
           [this, fixed](const tf2_msgs::TFMessage::ConstPtr& message) { hear(*message, fixed); });
     }
   }

@@ -103,9 +103,7 @@ void SimulatorNode::check_neighbours(const ros::NodeHandle& node, const NodePara
   const Neighbours neighbours = Neighbours::ask();
   const std::string& self = ros::this_node::getName();
   std::vector<std::string> services;
-  for (const char* service : {topics::kPause, topics::kReset, topics::kResetWith, topics::kStep,
-                              topics::kSaveCheckpoint, topics::kLoadCheckpoint})
-    services.push_back(node.resolveName(service));
+  for (const char* service : topics::kServices) services.push_back(node.resolveName(service));
   const auto alive = [](const std::string& service) { return ros::service::exists(service, false); };
   if (const std::string taken = taken_service(neighbours, self, services, alive); !taken.empty())
     throw ParameterError(taken);

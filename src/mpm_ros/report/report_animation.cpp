@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/math/json_text.hpp"
+#include "mpm_ros/message/view.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 #include "mpm_ros/report/report_error.hpp"
 #include "mpm_ros/report/report_messages.hpp"
@@ -18,19 +19,14 @@ namespace {
 
 constexpr std::size_t kSample = 200000;  // values kept at most, for a range
 
-/// A field that a scene names first because it is about that.
-bool is_transported(const std::string& field) {
-  return field == "temperature" || field == "concentration" || field == "pore_pressure";
-}
-
-bool is_place(const std::string& field) { return field == "x" || field == "y" || field == "z" || field == "id"; }
+bool is_coordinate(const std::string& field) { return field == "x" || field == "y" || field == "z" || field == "id"; }
 
 }  // namespace
 
 std::string choose_field(const std::vector<std::string>& recorded, const std::string& wanted) {
   std::vector<std::string> fields;
   for (const std::string& field : recorded) {
-    if (!is_place(field)) fields.push_back(field);
+    if (!is_coordinate(field)) fields.push_back(field);
   }
   const auto has = [&fields](const std::string& name) {
     return std::find(fields.begin(), fields.end(), name) != fields.end();

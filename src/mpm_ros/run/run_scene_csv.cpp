@@ -41,7 +41,9 @@ void CsvSink::put(const std::string&, const ros::Time& stamp, const Command& mes
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
   const auto origin = origins_.find(message.header.frame_id);
-  snapshots_.particles(stamps_.time_of(stamp), origin == origins_.end() ? message : in_world(message, origin->second));
+  const std::int64_t time = stamps_.time_of(stamp);
+  if (origin == origins_.end()) return snapshots_.particles(time, message);
+  snapshots_.particles(time, in_world(message, origin->second));
 }
 void CsvSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
   tables_.markers(message);

@@ -100,7 +100,8 @@ void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs:
   const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
   const auto origin = origins_.find(message.header.frame_id);
   const bool fine = origin != origins_.end();
-  const VtkFile file = particle_file(time, fine ? in_world(message, origin->second) : message, fine);
+  const VtkFile file =
+      fine ? particle_file(time, in_world(message, origin->second), true) : particle_file(time, message, false);
   if (ranks_ != nullptr) mpm::agree<VtkError>(ranks_, [&] { write_piece(file); });
   mpm::agree<VtkError>(ranks_, [&] {
     if (!first()) return;

@@ -71,7 +71,7 @@ std::vector<NamedFile> named_files(const std::string& text, const std::string& s
 
 /// The values of an attribute `filename` in a robot's description.
 std::vector<std::string> meshes_of(const fs::path& description) {
-  constexpr std::string_view kAttribute = "filename=", kScheme = "file://";
+  constexpr std::string_view kAttribute = "filename=";
   std::ifstream file(description, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<std::string> names;
@@ -80,8 +80,7 @@ std::vector<std::string> meshes_of(const fs::path& description) {
     if (at == text.size() || (text[at] != '"' && text[at] != '\'')) continue;
     const std::size_t end = text.find(text[at], at + 1);
     if (end == std::string::npos) break;
-    const std::string name = text.substr(at + 1, end - at - 1);
-    names.push_back(name.compare(0, kScheme.size(), kScheme) == 0 ? name.substr(kScheme.size()) : name);
+    names.push_back(text.substr(at + 1, end - at - 1));
     at = end;
   }
   return names;

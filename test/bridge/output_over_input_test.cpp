@@ -141,12 +141,15 @@ TEST_F(OutputOverInput, WhatARunGoesOnFrom) {
   EXPECT_EQ(run(), RunSceneResult::done) << err_.str();
   ReportOptions report;
   report.bags = {file("run.bag")};
-  for (std::string ReportOptions::*option : {&ReportOptions::json, &ReportOptions::animate}) {
+  const std::pair<std::string ReportOptions::*, const char*> cases[] = {
+      {&ReportOptions::json, "is a bag; name a file for the figures"},
+      {&ReportOptions::animate, "would overwrite the bag"}};
+  for (const auto& [option, refusal] : cases) {
     fs::create_hard_link(file("run.bag"), file("run.gif"));
     report.*option = file("run.gif");
     std::ostringstream out, err;
     EXPECT_EQ(run_report(report, out, err, false), ReportResult::bad_input);
-    EXPECT_NE(err.str().find("would overwrite the bag"), std::string::npos) << err.str();
+    EXPECT_NE(err.str().find(refusal), std::string::npos) << err.str();
     fs::remove(file("run.gif"));
     report.*option = "";
   }

@@ -1,6 +1,8 @@
 // The points of the deformed domains of a chunk of particles (shape/cpdi.hpp): where they are in the tile, and their
 // part in the gradient. Made anew for every pass, as weights.hpp makes those of other shape functions.
 //
+// A domain that leans too far is set up (shape/domain_shear.hpp).
+//
 // A point farther than 1.5 cells from its particle could lie outside the tile: such a domain is shrunk as a whole,
 // which keeps all sums that a shape function must have (Homel, Brannon & Guilkey (2016) scale CPDI domains for the same
 // end).
@@ -10,6 +12,7 @@
 
 #include "mpm/kernel/point_tile.hpp"
 #include "mpm/kernel/wide_math.hpp"
+#include "mpm/shape/domain_shear.hpp"
 #include "mpm/shape/particle_domain.hpp"
 
 namespace mpm {
@@ -124,17 +127,21 @@ class Domains {
   W place(int c, int p, int count) const {
     return W(W::B::place(set_.x[c] + p, count, origin_[c], inverse_cell_[c], corner_[c]));
   }
-  // Half vectors of the domains [m], columns of F times half the box; those beyond the reach made shorter.
+  // Half vectors of the domains [m], columns of F times half the box; those that lean too far set up, and those beyond
+  // the reach made shorter.
   void vectors(int p, int count, W (&d)[Dim][Dim]) const {
-    W reach(0.0);
     for (int c = 0; c < Dim; ++c) {
-      W along(0.0);
       for (int k = 0; k < Dim; ++k) {
         const W one = select(WideMask<T>::first(count), W::load_first(set_.domain[c * Dim + k] + p, count),
                              W(c == k ? 1.0 : 0.0));
         d[k][c] = one * half_[k];
-        along += abs(d[k][c]) * W(inverse_cell_[c]);
       }
+    }
+    if constexpr (Dim > 1) limit_shear(d);
+    W reach(0.0);
+    for (int c = 0; c < Dim; ++c) {
+      W along(0.0);
+      for (int k = 0; k < Dim; ++k) along += abs(d[k][c]) * W(inverse_cell_[c]);
       reach = max(reach, along);
     }
     W scale = W(kDomainReach) / max(reach, W(kDomainReach));
@@ -146,6 +153,28 @@ class Domains {
     }
     for (auto& vector : d) {
       for (W& component : vector) component *= scale;
+    }
+  }
+  // In cells, the unit in which the limit is stated and in which no square of an edge is too small for T.
+  void limit_shear(W (&d)[Dim][Dim]) const {
+    W cells[Dim][Dim];
+    for (int k = 0; k < Dim; ++k) {
+      for (int c = 0; c < Dim; ++c) cells[k][c] = d[k][c] * W(inverse_cell_[c]);
+    }
+    const WideMask<T> leans = leans_too_far(cells);
+    if (__builtin_expect(any(leans), 0)) set_up_lanes(leans.bits(), cells, d);
+  }
+  [[gnu::cold, gnu::noinline]] void set_up_lanes(unsigned lanes, const W (&cells)[Dim][Dim], W (&d)[Dim][Dim]) const {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int l = __builtin_ctz(lanes);
+      double one[Dim][Dim];
+      for (int k = 0; k < Dim; ++k) {
+        for (int c = 0; c < Dim; ++c) one[k][c] = static_cast<double>(lane(cells[k][c], l));
+      }
+      set_up(one);
+      for (int k = 0; k < Dim; ++k) {
+        for (int c = 0; c < Dim; ++c) set_lane(d[k][c], l, static_cast<T>(one[k][c] / inverse_cell_[c]));
+      }
     }
   }
   // Weights, gradients and the rest of rings at places q to q + kLanes of the chunk.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mpm/crack/crossing.hpp"
+#include "mpm/shape/domain_shear.hpp"
 #include "mpm/shape/particle_domain.hpp"
 
 namespace mpm {
@@ -27,11 +28,14 @@ double extent(const ParticleSet& set, const GridLayout& layout, ShapeKind shape,
       return 0.5;  // the most that it is stretched to
     case ShapeKind::cpdi:
     case ShapeKind::qcpdi: {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 2; ++k) {
-        sum += std::abs(static_cast<double>(set.f[2 * axis + k][p])) * set.half[k] * layout.cell(static_cast<int>(k));
+      double d[2][2];
+      for (int k = 0; k < 2; ++k) {
+        for (int c = 0; c < 2; ++c) {
+          d[k][c] = static_cast<double>(set.f[2 * c + k][p]) * set.half[k] * layout.cell(k) * layout.inverse_cell(c);
+        }
       }
-      return sum * layout.inverse_cell(static_cast<int>(axis));
+      if (leans_too_far(d)) set_up(d);
+      return std::abs(d[0][axis]) + std::abs(d[1][axis]);
     }
     default:
       return set.half[axis];

@@ -2,10 +2,13 @@
 // crosses a cell; viscosity and damping have their own rates. Every particle is looked at in its present state at
 // every sync point and some times in between (kernel/survey.hpp, advance.cpp), and what got stiffer since the look
 // before is expected to go on doing so until the next. A law's wave speed is that of a solid: in plane stress, where
-// thickness gives way, it is an upper bound. Source: method reference 11.
+// thickness gives way, it is an upper bound. With CPDI the fraction falls where domains are sheared far
+// (shape/domain_shear.hpp), for which the largest shear of a body is taken to be where its waves are fastest. Source:
+// method reference 11.
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/shape/domain_shear.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
 
@@ -31,6 +34,46 @@ class SceneStep final : public Module {
   double dt_;
 };
 
+/// Largest shear of the domains that particles awake have now, at most the limit.
+template <int Dim>
+double largest_shear(const ParticleSet& set, const GridLayout& layout, int threads) {
+  double half[Dim][Dim];  // of F's components, from the undeformed box to cells
+  for (int k = 0; k < Dim; ++k) {
+    for (int c = 0; c < Dim; ++c) half[k][c] = set.half[k] * layout.cell(k) * layout.inverse_cell(c);
+  }
+  const int count = set.awake();
+  return set.f[0].visit([&](const auto& first) {
+    using Array = std::decay_t<decltype(first)>;
+    const Array* f[Dim * Dim];
+    for (int c = 0; c < Dim * Dim; ++c) {
+      set.f[c].visit([&](const auto& one) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(one)>, Array>) f[c] = &one;
+      });
+    }
+    double most = 1.0;  // 1 + shear^2
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most)
+    for (int p = 0; p < count; ++p) {
+      double d[Dim][Dim];
+      for (int k = 0; k < Dim; ++k) {
+        for (int c = 0; c < Dim; ++c) d[k][c] = static_cast<double>((*f[c * Dim + k])[p]) * half[k][c];
+      }
+      const auto [edges, volume] = squared_edges_and_volume(d);
+      if (edges > most * volume) most = edges / volume;
+    }
+    return std::min(std::sqrt(most - 1.0), kDomainShear);
+  });
+}
+
+/// The part of a cell that may be crossed in a step by what is fastest in a set.
+double courant_of(const SimulationDefinition& definition, const ParticleSet& set, const GridLayout& layout,
+                  int threads) {
+  const double cfl = definition.time.cfl;
+  if (definition.method.shape != ShapeKind::cpdi || layout.dim() == 1) return cfl;
+  const double shear =
+      layout.dim() == 2 ? largest_shear<2>(set, layout, threads) : largest_shear<3>(set, layout, threads);
+  return courant_of_shear(cfl, shear);
+}
+
 }  // namespace
 
 void add_step_limit(RunParts& parts) {
@@ -45,7 +88,7 @@ StepLimit Simulation::State::survey_material() const {
     if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
-    material.dt = definition.time.cfl / found.rate;
+    material.dt = courant_of(definition, sets[s], layout(), threads) / found.rate;
     material.by = mechanics.get();
     material.part = static_cast<int>(s);
     material.speed = found.rate * cell;

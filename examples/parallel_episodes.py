@@ -81,7 +81,7 @@ def main():
     found, rate = run(arguments.simulators, seeds, arguments.record)
     for seed in seeds:
         print(f"seed {seed}: reward {found[seed][0]:.4f} in {found[seed][1]} steps")
-    print(f"{arguments.simulators} simulators: {rate:.0f} steps a second")
+    print(f"{arguments.simulators} simulator{'s' if arguments.simulators > 1 else ''}: {rate:.0f} steps a second")
     if not arguments.compare:
         return 0
     alone, slower = run(1, seeds)

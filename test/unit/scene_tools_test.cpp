@@ -60,7 +60,8 @@ TEST(SceneTools, ATooLargeToolIsDoubtedForItsUnit) {
   };
   EXPECT_EQ(doubt("solid", "box: {size: [100, 20, 20]}"),
             "rigid body 'tool' is 100 m long in a grid of 1 m: check its unit (scale)");
-  EXPECT_NE(doubt("solid", "sphere: {radius: 0.6}"), "") << "longer along each axis";
+  EXPECT_NE(doubt("solid", "sphere: {radius: 1.6}"), "") << "three times along each axis";
+  EXPECT_EQ(doubt("axisymmetric", "sphere: {radius: 1.1}"), "") << "a ball of which the grid holds the tip";
   EXPECT_NE(doubt("plane_strain", "sphere: {radius: 6}"), "");
   EXPECT_EQ(doubt("solid", "box: {size: [9, 9, 0.1]}"), "") << "a floor";
   EXPECT_EQ(doubt("solid", "plane: {}"), "") << "without end";

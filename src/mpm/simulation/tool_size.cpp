@@ -11,6 +11,7 @@ namespace mpm {
 namespace {
 
 constexpr double kTooLong = 10.0;  ///< times the grid: a floor or a wall may be longer than the grid, and is thin
+constexpr double kTooLarge = 3.0;  ///< times the grid along every axis: it may hold the tip of a sphere alone
 
 }  // namespace
 
@@ -22,7 +23,7 @@ std::string size_doubt(const RigidBodyDefinition& body, const SimulationDefiniti
     shortest = std::min(shortest, size[axis]);
     grid = std::max(grid, domain[axis]);
   }
-  if (!std::isfinite(longest) || !(longest > kTooLong * grid || shortest > grid)) return {};
+  if (!std::isfinite(longest) || !(longest > kTooLong * grid || shortest > kTooLarge * grid)) return {};
   return fmt::format("rigid body '{}' is {:.4g} m long in a grid of {:.4g} m: check its unit (scale)", body.name,
                      longest, grid);
 }

@@ -45,7 +45,9 @@ void ProgressBar::write_line(double part, double elapsed, const std::function<st
   const int tenths = static_cast<int>(10.0 * part + 1e-9);
   if (tenths <= tenths_ || tenths >= 10) return;  // the end has a summary of its own
   tenths_ = tenths;
-  out_ << fmt::format("{:3d} %  {}  {}\n", 10 * tenths, text(), time_left(part, elapsed)) << std::flush;
+  // The line may come late, so it says how much is done and not which tenth it stands for.
+  out_ << fmt::format("{:3d} %  {}  {}\n", static_cast<int>(100.0 * part + 1e-9), text(), time_left(part, elapsed))
+       << std::flush;
 }
 
 void ProgressBar::clear() {

@@ -16,12 +16,8 @@ TEST(Isa, IsFoundByItsName) {
   for (const char* name : {"", "auto", "AVX2", "avx", "avx512f"}) EXPECT_FALSE(find_isa(name)) << name;
 }
 
-TEST(Isa, PlainIsEverywhereAndAWiderOneHasTheNarrower) {
-  EXPECT_TRUE(isa_available(Isa::plain));
-  if (isa_available(Isa::avx512)) {
-    EXPECT_TRUE(isa_available(Isa::avx2));
-  }
-}
+// Tests are built with the plain one, which any machine can run; scripts/demo leaves it out.
+TEST(Isa, PlainIsEverywhere) { EXPECT_TRUE(isa_available(Isa::plain)); }
 
 TEST(Isa, AutoIsTheWidestThatIsThere) {
   Isa widest = Isa::plain;

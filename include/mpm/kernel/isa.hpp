@@ -18,14 +18,14 @@ const char* isa_name(Isa isa);
 std::optional<Isa> find_isa(const std::string& name);
 /// Whether this machine has it, and this build too.
 bool isa_available(Isa isa);
-/// The widest one available.
-Isa best_isa();
-
 /// An instruction set that is not known, or not there. what() lists those that are.
 class IsaError : public Error {
  public:
   using Error::Error;
 };
+
+/// The widest one available. @throws IsaError where the build has none that this machine has
+Isa best_isa();
 /// By name; "auto" or an empty one: the widest one available. @throws IsaError
 Isa choose_isa(const std::string& name);
 

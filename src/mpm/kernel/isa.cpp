@@ -29,21 +29,28 @@ std::optional<Isa> find_isa(const std::string& name) {
 }
 
 bool isa_available(Isa isa) {
+#if defined(MPM_PLAIN_KERNELS)
+  if (isa == Isa::plain) return true;
+#endif
 #if defined(MPM_AVX2_KERNELS)
   if (isa == Isa::avx2) return __builtin_cpu_supports("x86-64-v3");
 #endif
 #if defined(MPM_AVX512_KERNELS)
   if (isa == Isa::avx512) return __builtin_cpu_supports("x86-64-v4");
 #endif
-  return isa == Isa::plain;
+  return false;
 }
 
 Isa best_isa() {
-  Isa best = Isa::plain;
+  std::optional<Isa> best;
   for (const Isa isa : kAll) {
     if (isa_available(isa)) best = isa;
   }
-  return best;
+  if (best) return *best;
+  throw IsaError(
+      "this build has kernels for another machine alone; build it on this one, or with -DMPM_KERNELS=machine, which "
+      "adds those that "
+      "any machine can run");
 }
 
 Isa choose_isa(const std::string& name) {

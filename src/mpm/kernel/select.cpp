@@ -31,6 +31,11 @@ MPM_DECLARE_KERNELS(mpm_avx512)
 namespace mpm {
 namespace {
 
+#if defined(MPM_PLAIN_KERNELS)
+#define MPM_PLAIN(name) mpm_plain::name
+#else
+#define MPM_PLAIN(name) nullptr
+#endif
 #if defined(MPM_AVX2_KERNELS)
 #define MPM_AVX2(name) mpm_avx2::name
 #else
@@ -42,7 +47,7 @@ namespace {
 #define MPM_AVX512(name) nullptr
 #endif
 #define MPM_KERNELS(name) \
-  { mpm_plain::name, MPM_AVX2(name), MPM_AVX512(name) }
+  { MPM_PLAIN(name), MPM_AVX2(name), MPM_AVX512(name) }
 /// Of a shape function, by instruction set: its passes and, of a product along the axes, what makes its weights.
 struct ShapeTables {
   const mpm_kernel::PassFamily& (*passes[3])();

@@ -64,14 +64,10 @@ double largest_shear(const ParticleSet& set, const GridLayout& layout, int threa
   });
 }
 
-/// The part of a cell that may be crossed in a step by what is fastest in a set.
-double courant_of(const SimulationDefinition& definition, const ParticleSet& set, const GridLayout& layout,
-                  int threads) {
-  const double cfl = definition.time.cfl;
-  if (definition.method.shape != ShapeKind::cpdi || layout.dim() == 1) return cfl;
-  const double shear =
-      layout.dim() == 2 ? largest_shear<2>(set, layout, threads) : largest_shear<3>(set, layout, threads);
-  return courant_of_shear(cfl, shear);
+/// Largest shear of a set's domains where it shortens steps, else 0.
+double shear_of(const SimulationDefinition& definition, const ParticleSet& set, const GridLayout& layout, int threads) {
+  if (definition.method.shape != ShapeKind::cpdi || layout.dim() == 1 || set.awake() == 0) return 0.0;
+  return layout.dim() == 2 ? largest_shear<2>(set, layout, threads) : largest_shear<3>(set, layout, threads);
 }
 
 }  // namespace
@@ -85,10 +81,12 @@ StepLimit Simulation::State::survey_material() const {
   const double cell = layout().smallest_cell();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
+    double shear = shear_of(definition, sets[s], layout(), threads);
+    if (over && definition.method.shape == ShapeKind::cpdi) over->ranks().largest(&shear, 1);
     if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
-    material.dt = courant_of(definition, sets[s], layout(), threads) / found.rate;
+    material.dt = courant_of_shear(definition.time.cfl, shear) / found.rate;
     material.by = mechanics.get();
     material.part = static_cast<int>(s);
     material.speed = found.rate * cell;

@@ -17,6 +17,7 @@
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/cpdi.hpp"
 #include "mpm/shape/dirac.hpp"
+#include "mpm/shape/domain_shear.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/qcpdi.hpp"
 #include "mpm/shape/ugimp.hpp"
@@ -60,12 +61,18 @@ constexpr double kReferenceReach = 1.5 - 1e-4;
 /// which it is fitted.
 template <int Dim>
 void reference_domain(const ReferenceGrid& grid, const ReferencePlace& place, double (&d)[Dim][Dim]) {
+  for (int k = 0; k < Dim; ++k) {
+    for (int c = 0; c < Dim; ++c) d[k][c] = place.f[c][k] * place.half[k] * grid.cell[k] / grid.cell[c];  // [cells]
+  }
+  if constexpr (Dim > 1) {
+    if (leans_too_far(d)) set_up(d);  // stability.domain_shear has what these two do
+  }
   double reach = 0.0;
   for (int c = 0; c < Dim; ++c) {
     double along = 0.0;
     for (int k = 0; k < Dim; ++k) {
-      d[k][c] = place.f[c][k] * place.half[k] * grid.cell[k];
-      along += std::abs(d[k][c]) / grid.cell[c];
+      along += std::abs(d[k][c]);
+      d[k][c] *= grid.cell[c];
     }
     reach = std::max(reach, along);
   }

@@ -129,7 +129,7 @@ class Block {
     }
     probe_.sort();
   }
-  /// Whether velocities stay below a hundred times what they were in so many steps, in which a wave crosses `courant`
+  /// True if velocities stay below a hundred times what they were in so many steps, in which a wave crosses `courant`
   /// cells each.
   bool stable(double courant, int steps) {
     const double start = probe_.motion();

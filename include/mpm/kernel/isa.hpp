@@ -18,6 +18,7 @@ const char* isa_name(Isa isa);
 std::optional<Isa> find_isa(const std::string& name);
 /// Whether this machine has it, and this build too.
 bool isa_available(Isa isa);
+
 /// An instruction set that is not known, or not there. what() lists those that are.
 class IsaError : public Error {
  public:

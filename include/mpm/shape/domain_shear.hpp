@@ -18,7 +18,8 @@
 namespace mpm {
 
 /// Largest shear of a domain: how far it leans over its longest edge, over its height. A larger one would cost all of a
-/// run steps as short as the most torn of its particles asks for.
+/// run steps as short as the most torn of its particles asks for; at 6 the domains of a body in even simple shear, at 30
+/// degrees to the grid, ceased to tile from 4.3 on.
 constexpr double kDomainShear = 9.0;
 
 /// Part of a cell that a wave may cross in a step with CPDI's domains of this shear, at most `cfl`. What is stable was
@@ -49,7 +50,7 @@ std::pair<T, T> squared_edges_and_volume(const T (&d)[Dim][Dim]) {
   return {edges, volume * volume};
 }
 
-/// Whether a domain leans beyond the limit: a truth value, or one a lane. Not so of one that is not finite.
+/// True of a domain that leans beyond the limit (a truth value, or one a lane), false of one that is not finite.
 template <class T, int Dim>
 auto leans_too_far(const T (&d)[Dim][Dim]) {
   const auto [edges, volume] = squared_edges_and_volume(d);

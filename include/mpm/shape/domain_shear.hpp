@@ -18,8 +18,8 @@
 namespace mpm {
 
 /// Largest shear of a domain: how far it leans over its longest edge, over its height. A larger one would cost all of a
-/// run steps as short as the most torn of its particles asks for; at 6 the domains of a body in even simple shear, at 30
-/// degrees to the grid, ceased to tile from 4.3 on.
+/// run steps as short as the most torn of its particles asks for; at 6 the domains of a body in even simple shear, at
+/// 30 degrees to the grid, ceased to tile from 4.3 on.
 constexpr double kDomainShear = 9.0;
 
 /// Part of a cell that a wave may cross in a step with CPDI's domains of this shear, at most `cfl`. What is stable was

@@ -19,11 +19,30 @@ struct Particle {
   double strain;          // plastic
 };
 
+/// Young's modulus and Poisson's ratio of kBulk and kShear.
+constexpr Elasticity kElasticity{9.0 * kBulk * kShear / (3.0 * kBulk + kShear),
+                                 (3.0 * kBulk - 2.0 * kShear) / (6.0 * kBulk + 2.0 * kShear)};
+
+Law soil_law() {
+  DruckerPragerDefinition soil;
+  soil.elasticity = kElasticity;
+  soil.friction_angle = 0.5;
+  return make_law({"soil", kDensity, soil});
+}
+Law metal_law() {
+  J2PlasticityDefinition metal;
+  metal.elasticity = kElasticity;
+  metal.yield_stress = 1e3;
+  return make_law({"metal", kDensity, metal});
+}
+
 /// Particles in one plane; in the order in which they were given, whatever the sort does.
 template <class T>
 struct Soil {
-  explicit Soil(const std::vector<Particle>& particles)
-      : fields(make_fields(GridLayout(2, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Ones()))), sets(1) {
+  explicit Soil(const std::vector<Particle>& particles, Law of = soil_law())
+      : law(std::move(of)),
+        fields(make_fields(GridLayout(2, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Ones()))),
+        sets(1) {
     ParticleSet& set = sets[0];
     set.mass = kMass;
     set.precision = sizeof(T) == 4 ? Precision::float32 : Precision::float64;
@@ -41,8 +60,7 @@ struct Soil {
       for (const int diagonal : {0, 3}) set.f[diagonal].set(p, 1.0);
       set.tau[0].set(p, one.xx), set.tau[1].set(p, one.zz), set.tau[2].set(p, one.xz), set.tau[3].set(p, one.yy);
     }
-    average = std::make_unique<StressAverage>(std::vector<AveragedSet>{{&set, kBulk, kShear, kDensity}},
-                                              GeometryKind::plane_strain, 2);
+    average = std::make_unique<StressAverage>(std::vector<AveragedSet>{{&set, &law}}, GeometryKind::plane_strain, 2);
     EXPECT_FALSE(Sorter(1).sort(sets, fields));
     act();  // plastic strain of the start does not count
     for (std::size_t p = 0; p < n; ++p) set.history[0].set(p, particles[set.id[p]].strain);
@@ -63,6 +81,7 @@ struct Soil {
     average->energies(report);
     return report.of("stress averaging");
   }
+  Law law;
   Fields fields;
   std::vector<ParticleSet> sets;
   std::unique_ptr<StressAverage> average;
@@ -103,7 +122,7 @@ TYPED_TEST(StressAverageOf, SharedByWhatFlowsInACell) {
 // Ground that has yielded while it settled brings its plastic strain along.
 TYPED_TEST(StressAverageOf, PlasticStrainOfTheStartIsNoFlow) {
   Soil<TypeParam> soil({{0.52, 0.41, -9.0, -9.0, 0.0, -9.0, 0.1}, {0.58, 0.48, -1.0, -1.0, 0.0, -1.0, 0.2}});
-  soil.average = std::make_unique<StressAverage>(std::vector<AveragedSet>{{&soil.sets[0], kBulk, kShear, kDensity}},
+  soil.average = std::make_unique<StressAverage>(std::vector<AveragedSet>{{&soil.sets[0], &soil.law}},
                                                  GeometryKind::plane_strain, 1);
   soil.act();
   EXPECT_EQ(soil.stress(0, 0), -9.0);
@@ -135,6 +154,22 @@ TYPED_TEST(StressAverageOf, TheVolumeIsSharedToo) {
     EXPECT_NEAR(set.f[0][p], before * stretch, 1e-6);
     EXPECT_NEAR(set.f[3][p], stretch, 1e-6);
   }
+}
+
+// Metal shares deviators and J in tension, too, and what it loses is what its law's energy says.
+TYPED_TEST(StressAverageOf, MetalSharesInTensionToo) {
+  const double stress = kShear / kDensity * 1e-3;  // of an elastic strain of 1e-3 [J/kg]
+  Soil<TypeParam> metal(
+      {{0.52, 0.41, 3.0 * stress, 0.0, 0.0, 0.0, 0.1}, {0.58, 0.48, 0.0, 3.0 * stress, 0.0, 0.0, 0.1}}, metal_law());
+  metal.act();
+  const double tolerance = sizeof(TypeParam) == 4 ? 1e-6 : 1e-14;
+  for (std::uint32_t p = 0; p < 2; ++p) {
+    EXPECT_NEAR(metal.stress(0, p), 1.5 * stress, tolerance * stress) << p;
+    EXPECT_NEAR(metal.stress(1, p), 1.5 * stress, tolerance * stress) << p;
+  }
+  // Of a small strain G/4 dev b : dev b a volume: deviators (2, -1, -1) become (0.5, 0.5, -1).
+  const double lost = 2.0 * kMass / kDensity * kShear / 4.0 * (6.0 - 1.5) * 1e-6;
+  EXPECT_NEAR(metal.energy(), lost, 3e-3 * lost);
 }
 
 }  // namespace stress_average_test

@@ -28,6 +28,8 @@ namespace mpm {
 
 class J2Plasticity : public LawTraits {
  public:
+  static constexpr bool kAveragesStress = true;
+  static constexpr bool kPressureFromVolume = true;
   static constexpr int kHistory = 2;
   static constexpr int kPlasticStrain = 0;
   static constexpr int kPlasticWork = 1;

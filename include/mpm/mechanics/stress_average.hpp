@@ -1,15 +1,16 @@
-// One stress for the particles of a cell that flow: against locking and ringing of soil.
+// One stress for the particles of a cell that flow: against locking and ringing of soil, clay and metal.
 //
-// The flow rule of soil ties the change of volume to the shear at every particle. A cell with four or eight particles
+// A flow rule ties the change of volume to the shear at every particle. A cell with four or eight particles
 // then forbids more motions than its nodes have: a slip band that is not parallel to the grid cannot form freely, and
 // what is pushed or pressed meets too much force. At the beginning of each step the particles of a cell whose plastic
-// strain has grown in the step before, and which are under pressure, of one body, get the mean of their stresses,
-// weighted by mass. So the cell flows as an element with one stress does; what is elastic stays as it is. The mean
-// stress of a cell does not change, and since the elastic region is convex, the mean of admissible stresses is
+// strain has grown in the step before, of one body, and of soil those under pressure alone, get the mean of their
+// stresses, weighted by mass. So the cell flows as an element with one stress does; what is elastic stays as it is. The
+// mean stress of a cell does not change, and since the elastic region is convex, the mean of admissible stresses is
 // admissible. What the particles lose of their elastic energy is booked.
 //
 // They also share their volume ratio J, whose sum over the mass does not change: nothing but its stress would keep a
-// particle from swelling while its neighbour shrinks.
+// particle from swelling while its neighbour shrinks. Where the pressure follows from J (J2), sharing J is sharing the
+// pressure, and the mean of the stresses acts for one step.
 //
 // A cell is that between nodes. A particle that has left its block since the last sort by more than half a cell counts
 // in the nearest cell of that block.
@@ -27,18 +28,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/ranks/halo.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
 
-/// A set of particles whose law is in rate form, with an elastic part by Hooke.
+/// A set of particles whose law has kAveragesStress. It outlives the stage.
 struct AveragedSet {
   ParticleSet* set;
-  double bulk;     ///< modulus [Pa]
-  double shear;    ///< modulus [Pa]
-  double density;  ///< before deformation [kg/m^3]
+  const Law* law;
 };
 
 class StressAverage final : public Stage {
@@ -74,17 +74,18 @@ class StressAverage final : public Stage {
     std::vector<Cell> all;          ///< by the node at their lower corner
   };
 
-  /// Visits every set with its number, its particles' plastic strains before, and a value of their scalar type.
+  /// Visits every set with its number, its particles' plastic strains before, a value of their scalar type, and its
+  /// law.
   template <class Visit>
   void each_set(Visit&& visit);
   void find_cells(const Grid& grid, Cells& cells) const;
   /// Adds the flowing particles of a block to their cells.
-  template <class Geometry, class T>
-  void gather(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells);
+  template <class Geometry, class T, class LawType>
+  void gather(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner, Cells& cells);
   /// Gives the means to the flowing particles of a block, and takes note of the plastic strains of all of them for the
   /// next step. Returns the energy that the particles lose [J].
-  template <class Geometry, class T>
-  double share(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells);
+  template <class Geometry, class T, class LawType>
+  double share(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner, Cells& cells);
   template <class Geometry>
   void average(const Grid& grid, int field, Cells& cells);
   void exchange(const Grid& grid, int field, Cells& cells);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "mpm/material/law.hpp"
 #include "mpm/simulation/definition.hpp"
 
 namespace mpm {
@@ -22,10 +23,12 @@ std::optional<MethodFault> method_fault(const MethodDefinition& method, Geometry
 /// doc/methods.md, the time step.
 double stable_cfl(const Transfer& transfer);
 
-/// Whether soil that flows has one stress in a cell. If the method does not say so: wherever soil can lock, unless
-/// another remedy, average_dilatation, is chosen.
-bool averages_stress(const MethodDefinition& method, GeometryKind geometry);
-/// The elastic constants of a law of soil whose stresses can be averaged; null of any other.
-const Elasticity* averaged_elasticity(const LawDefinition& law);
+/// Whether what flows has one stress in a cell. If the method does not say so: wherever it can lock, unless another
+/// remedy, average_dilatation, is chosen, or cracks are there, whose two sides a cell would join.
+bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks);
+/// Whether particles of a law can share their stress.
+bool has_averaged_stress(const Law& law);
+/// Whether such a law finds the pressure from J, not from its increments.
+bool finds_pressure_from_volume(const Law& law);
 
 }  // namespace mpm

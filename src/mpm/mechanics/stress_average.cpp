@@ -9,12 +9,9 @@
 namespace mpm {
 namespace {
 
-// Of every law of soil; simulation/stress_average_module.cpp checks it.
-constexpr int kPlasticStrain = 0;
-
 // Above round-off, which must not decide who takes part.
 constexpr double kFlow = 1e-12;     ///< plastic strain in a step from which on a particle flows
-constexpr double kPressure = 1e-9;  ///< pressure over the bulk modulus from which on it is under pressure
+constexpr double kPressure = 1e-9;  ///< pressure over the stiffness of a wave from which on it is under pressure
 
 /// How a stress is stored: in a plane xx, zz, xz, yy.
 template <class Geometry>
@@ -25,34 +22,35 @@ struct Stored {
   using Stress = std::array<double, kCount>;
 
   static double mean(const Stress& s) { return (s[kDiagonal[0]] + s[kDiagonal[1]] + s[kDiagonal[2]]) / 3.0; }
-  /// Elastic energy of a stress in a unit of volume.
-  static double energy(const Stress& s, double bulk, double shear) {
-    const double tension = mean(s);
-    double squares = 0.0;
-    for (const double component : s) squares += 2.0 * component * component;
-    for (const int i : kDiagonal) squares -= s[i] * s[i];
-    return tension * tension / (2.0 * bulk) + (squares - 3.0 * tension * tension) / (4.0 * shear);
+  static auto symmetric(const Stress& s) {
+    if constexpr (Geometry::kDim == 3) {
+      return Symmetric3<double>{s[0], s[1], s[2], s[3], s[4], s[5]};
+    } else {
+      return SymmetricPlane<double>{s[0], s[1], s[2], s[3]};
+    }
   }
 };
 
 /// One particle's data as the average needs them.
-template <class Geometry, class T>
+template <class Geometry, class T, class LawType>
 class Particles {
  public:
   using Tensor = Stored<Geometry>;
   using Stress = typename Tensor::Stress;
 
-  Particles(const AveragedSet& one, double* strain_before)
-      : set_(*one.set),
-        strain_(set_.history[kPlasticStrain].template data<T>()),
-        before_(strain_before),
-        least_pressure_(kPressure * one.bulk / one.density) {
+  Particles(ParticleSet& set, const LawType& law, double* strain_before)
+      : set_(set), strain_(set.history[LawType::kPlasticStrain].template data<T>()), before_(strain_before) {
+    if constexpr (!LawType::kPressureFromVolume) {
+      const double speed = law.wave_speed(Matrix3<double>::identity(), Symmetric3<double>{}, 1.0);
+      least_pressure_ = kPressure * speed * speed;
+    }
     for (int i = 0; i < Tensor::kCount; ++i) stress_[i] = set_.tau[i].template data<T>();
     for (int i = 0; i < kRows; ++i) gradient_[i] = set_.f[i].template data<T>();
   }
 
   bool flows(std::uint32_t p) const {
-    return strain_[p] > before_[p] + kFlow && Tensor::mean(stress(p)) < -least_pressure_;
+    if (!(strain_[p] > before_[p] + kFlow)) return false;
+    return LawType::kPressureFromVolume || Tensor::mean(stress(p)) < -least_pressure_;
   }
   void remember(std::uint32_t p) { before_[p] = strain_[p]; }
   double mass(std::uint32_t p) const { return set_.mass_of(static_cast<int>(p)); }
@@ -88,7 +86,7 @@ class Particles {
   ParticleSet& set_;
   const T* strain_;
   double* before_;
-  double least_pressure_;  ///< [J/kg]
+  double least_pressure_ = 0.0;  ///< [J/kg]
   std::array<T*, Tensor::kCount> stress_;
   std::array<T*, kRows> gradient_;
 };
@@ -104,11 +102,17 @@ template <class Visit>
 void StressAverage::each_set(Visit&& visit) {
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     double* before = sets_[s].set->brought[places_[s]].values.data();
-    if (sets_[s].set->precision == Precision::float64) {
-      visit(s, before, double());
-    } else {
-      visit(s, before, float());
-    }
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (std::decay_t<decltype(law)>::kAveragesStress) {
+            if (sets_[s].set->precision == Precision::float64) {
+              visit(s, before, double(), law);
+            } else {
+              visit(s, before, float(), law);
+            }
+          }
+        },
+        *sets_[s].law);
   }
 }
 
@@ -145,10 +149,11 @@ StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const s
   return cells.all[of_block[grid.blocks.neighbours(owner)[neighbour]] + local];
 }
 
-template <class Geometry, class T>
-void StressAverage::gather(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells) {
+template <class Geometry, class T, class LawType>
+void StressAverage::gather(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner,
+                           Cells& cells) {
   const AveragedSet& one = sets_[set];
-  const Particles<Geometry, T> particles(one, before);
+  const Particles<Geometry, T, LawType> particles(*one.set, law, before);
   const int* of_block = &cells.of_set_block[set * grid.blocks.size()];
   const int place = grid.first_owner + owner;
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
@@ -168,11 +173,12 @@ void StressAverage::gather(std::size_t set, double* before, const Grid& grid, in
   }
 }
 
-template <class Geometry, class T>
-double StressAverage::share(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells) {
+template <class Geometry, class T, class LawType>
+double StressAverage::share(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner,
+                            Cells& cells) {
   using Tensor = Stored<Geometry>;
   const AveragedSet& one = sets_[set];
-  Particles<Geometry, T> particles(one, before);
+  Particles<Geometry, T, LawType> particles(*one.set, law, before);
   const int* of_block = &cells.of_set_block[set * grid.blocks.size()];
   const int place = grid.first_owner + owner;
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
@@ -187,9 +193,8 @@ double StressAverage::share(std::size_t set, double* before, const Grid& grid, i
     typename Tensor::Stress mean;
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = cell.stress[i] * inverse_mass;
     const double ratio = particles.volume_ratio(p), mean_ratio = cell.volume * inverse_mass;
-    // Cauchy stress is that which is stored times density over volume ratio, and acts on the present volume.
     const auto energy = [&](const typename Tensor::Stress& s, double j) {
-      return Tensor::energy(s, one.bulk, one.shear) * one.density / j;
+      return law.elastic_energy(Geometry::dilatation(1.0), Tensor::symmetric(s), j);
     };
     lost += particles.mass(p) * (energy(particles.stress(p), ratio) - energy(mean, mean_ratio));
     particles.set_stress(p, mean);
@@ -239,14 +244,14 @@ void StressAverage::average(const Grid& grid, int field, Cells& cells) {
   of_owner_.assign(grid.blocks.owners(), 0.0);
   // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
   grid.shares.by_colour(threads_, [&](int owner) {
-    each_set([&](std::size_t s, double* before, auto scalar) {
-      gather<Geometry, decltype(scalar)>(s, before, grid, owner, cells);
+    each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
+      gather<Geometry, decltype(scalar)>(s, law, before, grid, owner, cells);
     });
   });
   if (halo_ != nullptr) exchange(grid, field, cells);
   grid.shares.at_once(threads_, [&](int owner) {
-    each_set([&](std::size_t s, double* before, auto scalar) {
-      of_owner_[owner] += share<Geometry, decltype(scalar)>(s, before, grid, owner, cells);
+    each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
+      of_owner_[owner] += share<Geometry, decltype(scalar)>(s, law, before, grid, owner, cells);
     });
   });
   for (const double lost : of_owner_) taken_ += lost;
@@ -263,8 +268,8 @@ void StressAverage::momentum_gathered(StepContext& context) {
       return;
     }
     // As ground has that was settled: the plastic strains of the start are not of this run.
-    each_set([&](std::size_t s, double* before, auto scalar) {
-      Particles<Geometry, decltype(scalar)> particles(sets_[s], before);
+    each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
+      Particles<Geometry, decltype(scalar), std::decay_t<decltype(law)>> particles(*sets_[s].set, law, before);
       for (int p = 0; p < sets_[s].set->size(); ++p) particles.remember(p);
     });
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mpm/material/law.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
@@ -61,6 +62,20 @@ std::string with_method(const YAML::Node& tree, const MethodDefinition& chosen) 
   return YAML::Dump(root);
 }
 
+/// Notes what a scene gets that does not say whether stresses are averaged.
+void tell_of_averages(Scene& scene) {
+  const SimulationDefinition& definition = scene.definition;
+  const bool flows = std::any_of(definition.materials.begin(), definition.materials.end(),
+                                 [](const auto& material) { return has_averaged_stress(make_law(material)); });
+  if (!flows || definition.method.average_stress) return;
+  if (averages_stress(definition.method, definition.geometry, definition.cracks.any())) {
+    scene.choices.emplace_back("method.average_stress",
+                               "true: what flows has one stress in a cell, against too much force on tools");
+  } else if (averages_stress(definition.method, definition.geometry, false)) {
+    scene.choices.emplace_back("method.average_stress", "false: a cell would join the two sides of a crack");
+  }
+}
+
 }  // namespace
 
 const char* axis_name(int axis) {
@@ -111,12 +126,6 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
     scene.choices.emplace_back("gravity", "none: the scene names none");
   }
   read_materials(root, scene);
-  const bool soil = std::any_of(definition.materials.begin(), definition.materials.end(),
-                                [](const auto& material) { return averaged_elasticity(material.law) != nullptr; });
-  if (soil && !definition.method.average_stress && averages_stress(definition.method, definition.geometry)) {
-    scene.choices.emplace_back("method.average_stress",
-                               "true: soil that flows has one stress in a cell, against too much force on tools");
-  }
   read_bodies(root, scene);
   read_rigid_bodies(root, scene);
   read_contact_pairs(root, scene);
@@ -126,6 +135,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_sleep(root, scene);
   read_transport(root, scene);
   read_cracks(root, scene);
+  tell_of_averages(scene);
   read_metrics(root, scene);
   read_target(root, scene);
   for (const std::string& name : context.constants.unused()) {

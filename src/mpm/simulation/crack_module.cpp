@@ -69,9 +69,7 @@ void check(const RunParts& parts) {
   if (parts.layout().dim() != 2) refuse("explicit cracks are for planar scenes and for scenes about an axis");
   if (parts.choice == nullptr) refuse("no body heeds any of them; leave the section out, or name a body that does");
   if (parts.modules.find("stress_average") != nullptr) {
-    refuse(
-        "averages of stress in cells (method.average_stress, on with soil) know no cracks; write average_stress: "
-        "false");
+    refuse("averages of stress in cells (method.average_stress) know no cracks; leave the key out");
   }
   if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
   if (definition.cracks.heating > 0.0 && parts.temperature == nullptr) {

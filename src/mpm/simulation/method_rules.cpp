@@ -147,15 +147,16 @@ double stable_cfl(const Transfer& transfer) {
   return transfer.kind == TransferKind::fmpm && transfer.order >= 5 ? 0.9 : 1.0;
 }
 
-bool averages_stress(const MethodDefinition& method, GeometryKind geometry) {
-  return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation);
+bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks) {
+  return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation && !cracks);
 }
 
-const Elasticity* averaged_elasticity(const LawDefinition& law) {
-  if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return &soil->elasticity;
-  if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return &soil->elasticity;
-  if (const auto* grain = std::get_if<MuIDefinition>(&law)) return &grain->elasticity;
-  return nullptr;
+bool has_averaged_stress(const Law& law) {
+  return std::visit([](const auto& own) { return own.kAveragesStress; }, law);
+}
+
+bool finds_pressure_from_volume(const Law& law) {
+  return std::visit([](const auto& own) { return own.kPressureFromVolume; }, law);
 }
 
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {

@@ -18,6 +18,7 @@ namespace edge_cover_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kCell = 0.1;
+constexpr double kFurther = 0.15;  ///< cells by which an edge acts further out than it lies
 
 /// A field whose nodes all carry 1 kg, from 0 to 2 m along each axis.
 struct Field {
@@ -110,8 +111,19 @@ TEST(EdgeCover, AwayFromEdgesNothingChanges) {
   expect_no_edge(around(field, blade(0.5), {0.63, 0.0, 0.87}, Vec3::UnitX()));
 }
 
-// What is before the face moves with one velocity, what is below the edge with another, and a node's velocity is their
-// mean by the parts of its cell, which is what a grid sees of two rigid halves. The point sees the upper velocity,
+/// Part of a hat function that lies beyond a plane from which the node is this many cells away, by its integral.
+double hat_beyond(double cells) {
+  constexpr int kParts = 4000;
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const double at = -1.0 + (i + 0.5) * 2.0 / kParts;
+    if (at > -cells) sum += (1.0 - std::abs(at)) * 2.0 / kParts;
+  }
+  return sum;
+}
+
+// What is before the face moves with one velocity, what is below the edge with another, and a node's velocity is the
+// mean by its hat function, which is what a grid sees of two rigid halves. The point sees the upper velocity,
 // wherever the edge and the point lie between the nodes. Soil behind the plane of the face carries what acts on the
 // nodes below, so that an impulse is spread as the velocity is seen, and no energy is lost.
 TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
@@ -119,12 +131,13 @@ TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
   for (const double edge : {0.5, 0.513, 0.54, 0.55, 0.567, 0.599}) {
     const RigidBody body = blade(edge);
     const auto velocity = [&](const Vec3& place) {
-      const double part = std::clamp((place.z() - edge) / kCell + 0.5, 0.0, 1.0);
-      return part * 3.0 - (1.0 - part) * 7.0;
+      const double above = hat_beyond((place.z() - edge) / kCell + kFurther);
+      const double front = hat_beyond((place.x() - 0.63) / kCell);
+      return (above * front * 3.0 - (1.0 - above) * 7.0) / (above * front + 1.0 - above);
     };
     for (const double above : {0.01, 0.04, 0.08, 0.13}) {
       const Around found = around(field, body, {0.63, 0.0, edge + above}, Vec3::UnitX());
-      EXPECT_NEAR(found.seen(field, velocity), 3.0, 1e-9) << edge << ' ' << above;
+      EXPECT_NEAR(found.seen(field, velocity), 3.0, 1e-5) << edge << ' ' << above;
       double whole = 0.0;
       for (const PointNode& node : found.nodes) {
         whole += node.weight;
@@ -136,7 +149,8 @@ TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
 }
 
 // What an impulse at one point does to the velocity at another is what it does the other way round, whatever the nodes
-// weigh, and no impulses gain energy: the sweeps over points then converge.
+// weigh, and no impulses gain energy: the sweeps over points then converge. Where a node further out has itself a small
+// part before the face, and soil behind the plane is thin, the two differ by less than a millionth.
 TEST(EdgeCover, PointsAnswerEachOtherSymmetrically) {
   Field field(2);
   std::mt19937 random(3);
@@ -165,8 +179,8 @@ TEST(EdgeCover, PointsAnswerEachOtherSymmetrically) {
       }
     }
     const double scale = answers.cwiseAbs().maxCoeff();
-    EXPECT_LT((answers - answers.transpose()).cwiseAbs().maxCoeff(), 1e-12 * scale) << edge;
-    EXPECT_GT(answers.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-12 * scale) << edge;
+    EXPECT_LT((answers - answers.transpose()).cwiseAbs().maxCoeff(), 1e-6 * scale) << edge;
+    EXPECT_GT(answers.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-6 * scale) << edge;
   }
 }
 
@@ -183,16 +197,17 @@ TEST(EdgeCover, NothingPullsAtAFreeSurface) {
   }
   const RigidBody body = body_of(make_box({2.0 * edge, kInfinite, 0.5}), {0.0, 0.0, ground + 0.25});
   const auto velocity = [&](const Vec3& place) {
-    const double part = std::clamp((edge - place.x()) / kCell + 0.5, 0.0, 1.0);
+    const double part = hat_beyond((edge - place.x()) / kCell + kFurther);
     return -3.0 * part + (1.0 - part) * 7.0;
   };
   const Around found = around(field, body, {edge - 0.01, 0.0, ground}, -Vec3::UnitZ());
   EXPECT_TRUE(found.at_edge);
-  EXPECT_NEAR(found.seen(field, velocity), -3.0, 1e-9);
+  EXPECT_NEAR(found.seen(field, velocity), -3.0, 1e-5);
   double whole = 0.0;
   for (const PointNode& node : found.nodes) {
-    const double part = std::clamp((edge - field.place(node.node).x()) / kCell + 0.5, 0.0, 1.0);
-    EXPECT_NEAR(node.weight, node.reading * part, 1e-12);
+    const double inside = (edge - field.place(node.node).x()) / kCell + kFurther;
+    const double part = hat_beyond(inside), of_further = hat_beyond(inside - 1.0);
+    EXPECT_NEAR(node.weight, node.reading * (part - of_further) / (1.0 - of_further), 1e-6);
     whole += node.weight;
   }
   EXPECT_NEAR(whole, 1.0, 1e-12);
@@ -205,11 +220,12 @@ TEST(EdgeCover, OnCellsThatAreNotCubesToo) {
     for (const double edge : {0.8, 0.87, 0.9, 0.96}) {
       const RigidBody body = body_of(make_box({0.5, kInfinite, 0.9}), {0.63 - 0.25, 0.0, edge + sense * 0.45});
       const auto velocity = [&](const Vec3& place) {
-        const double part = std::clamp(sense * (place.z() - edge) / (2.0 * kCell) + 0.5, 0.0, 1.0);
-        return part * 3.0 - (1.0 - part) * 7.0;
+        const double above = hat_beyond(sense * (place.z() - edge) / (2.0 * kCell) + kFurther);
+        const double front = hat_beyond((place.x() - 0.63) / kCell);
+        return (above * front * 3.0 - (1.0 - above) * 7.0) / (above * front + 1.0 - above);
       };
       const Around found = around(field, body, {0.63, 0.0, edge + sense * 0.06}, Vec3::UnitX());
-      EXPECT_NEAR(found.seen(field, velocity), 3.0, 1e-9) << sense << ' ' << edge;
+      EXPECT_NEAR(found.seen(field, velocity), 3.0, 1e-5) << sense << ' ' << edge;
     }
   }
 }
@@ -228,20 +244,21 @@ TEST(EdgeCover, AnEdgeOnWhichMaterialEndsIsNone) {
   for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_NEAR(found.nodes[n].weight, found.before[n], 1e-14);
 }
 
-// The nodes above it are covered just wholly. Whether a point is at an edge decides on the overlap that it keeps.
-TEST(EdgeCover, RoundOffDecidesNothingWhereAnEdgeLiesHalfACellFromNodes) {
+// Nodes 0.85 cells above it are covered just wholly. Whether a point is at an edge decides on the overlap
+// that it keeps.
+TEST(EdgeCover, RoundOffDecidesNothingWhereNodesAreJustCovered) {
   Field field(2);
   for (const double off : {-1e-14, -1e-16, 0.0, 1e-16, 1e-14}) {
     SCOPED_TRACE(off);
-    expect_no_edge(around(field, blade(0.55 + off), {0.63, 0.0, 0.65}, Vec3::UnitX()));
+    expect_no_edge(around(field, blade(0.515 + off), {0.63, 0.0, 0.65}, Vec3::UnitX()));
   }
-  EXPECT_TRUE(around(field, blade(0.55 + 1e-5), {0.63, 0.0, 0.65}, Vec3::UnitX()).at_edge);
+  EXPECT_TRUE(around(field, blade(0.515 + 2e-3), {0.63, 0.0, 0.65}, Vec3::UnitX()).at_edge);
 }
 
 TEST(EdgeCover, APointBeyondAnEdgeIsNoContact) {
   Field field(2);
   const RigidBody body = blade(0.5);
-  EXPECT_TRUE(around(field, body, {0.63, 0.0, 0.38}, Vec3::UnitX()).nodes.empty());
+  EXPECT_TRUE(around(field, body, {0.63, 0.0, 0.36}, Vec3::UnitX()).nodes.empty());
 }
 
 // A cylinder of one cell and a half in radius, and a face that goes on at 45 degrees.
@@ -262,11 +279,12 @@ TEST(EdgeCover, InSpaceToo) {
   Field field(3);
   const RigidBody body = body_of(make_box({0.5, 1.0, 1.0}), {0.38, 1.03, 1.04});  // edges at y = 0.53, z = 0.54
   const auto velocity = [&](const Vec3& place) {
-    const double part = std::clamp((place.z() - 0.54) / kCell + 0.5, 0.0, 1.0);
-    return part * 3.0 - (1.0 - part) * 7.0;
+    const double above = hat_beyond((place.z() - 0.54) / kCell + kFurther);
+    const double front = hat_beyond((place.x() - 0.63) / kCell);
+    return (above * front * 3.0 - (1.0 - above) * 7.0) / (above * front + 1.0 - above);
   };
   const Around edge = around(field, body, {0.63, 1.02, 0.57}, Vec3::UnitX());
-  EXPECT_NEAR(edge.seen(field, velocity), 3.0, 1e-9);
+  EXPECT_NEAR(edge.seen(field, velocity), 3.0, 1e-5);
   const Around corner = around(field, body, {0.63, 0.55, 0.56}, Vec3::UnitX());
   bool beside = false, below = false;
   for (const PointNode& node : corner.nodes) {

@@ -15,6 +15,7 @@ constexpr double kLeast = 0.1;         ///< S of a point that counts
 constexpr double kLeastPart = 1e-3;    ///< cover of a node that counts
 constexpr double kWhole = 1.0 - 1e-6;  ///< cover of a node that is whole: round-off must not make an edge
 constexpr double kHalf = 0.5;          ///< cover from which on a node decides with its whole weight
+constexpr double kFurther = 0.15;      ///< cells by which an edge acts further out than it lies
 constexpr double kThinnest = 1e-2;     ///< mass beyond an edge, over that of the node, from which on there is material
 
 /// Directions along the surface across the edges near a point, away from the face.
@@ -59,6 +60,20 @@ void look(const RigidBody& body, const ContactPoint& point, const Vec3& along, c
     edges.across[edges.count] = across;
     edges.cell[edges.count++] = cell_along(layout, across);
   }
+}
+
+/// Part of a hat function that lies on the node's side of a plane; `cells` from the plane to the node, negative on the
+/// other side.
+double hat_part(double cells) {
+  const double left = 1.0 - std::min(std::abs(cells), 1.0), other = 0.5 * left * left;
+  return cells > 0.0 ? 1.0 - other : other;
+}
+
+/// Part of a node's mass that lies before the face, of the parts of its hat function that lie on the covered side of
+/// the edge and in front of the plane of the face; `backed`: how full it is behind that plane beyond the edge.
+double part_before(double covered, double front, double backed) {
+  const double before = covered * front, beyond = (1.0 - covered) * (front + backed * (1.0 - front));
+  return before > 0.0 ? before / (before + beyond) : 0.0;
 }
 
 Edges edges_near(const RigidBody& body, const ContactPoint& point, const GridLayout& layout) {
@@ -118,16 +133,22 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
     for (int e = 0; e < edges.count; ++e) {
       const Vec3& across = edges.across[e];
       const double cell = edges.cell[e];
-      const double part = std::clamp(1.0 - beyond(body, place + 0.5 * cell * across, across) / cell, 0.0, 1.0);
-      if (part >= std::min(cover, kWhole)) continue;
+      const double within = 1.0 + kFurther - beyond(body, place + cell * across, across) / cell;
+      if (hat_part(within) >= kWhole) continue;
       const NodeRef further = nearest_node(grid, place + cell * across);
       if (further.block < 0 || (further.block == ref.block && further.node == ref.node)) continue;
       if (mass_of(further) < kThinnest * mass_of(ref)) continue;
       const NodeRef behind = nearest_node(grid, place + cell * across + into);
+      const double least = behind.block < 0 ? 0.0 : std::min(mass_of(behind), mass_of(further));
+      const double backed = std::min(1.0, least / mass_of(ref));
+      const double front = hat_part((place - point.place).dot(point.normal) / into.norm());
+      const double own = part_before(hat_part(within), front, backed);
+      const double of_further = part_before(hat_part(within - 1.0), front, backed);
+      const double part = (own - of_further) / (1.0 - of_further);
+      if (!(part < cover)) continue;
       cover = part;
       other.node = further.block * per_block + further.node;
-      const double least = behind.block < 0 ? 0.0 : std::min(mass_of(behind), mass_of(further));
-      other.backed = std::min(1.0, least / mass_of(ref));
+      other.backed = backed;
     }
     if (cover < kLeastPart) continue;
     const double reading = around[n].reading * std::min(1.0, cover / kHalf), rest = reading * (1.0 - cover);

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -44,6 +47,20 @@ std::optional<std::string> value_of(const std::string& text, const std::string& 
   return text.substr(name.size() + 1);
 }
 
+/// Reads "0.5,0.25", parts of a cell along x and z.
+std::array<double, 2> place_beside(const Problem& problem, const std::string& text) {
+  std::array<double, 2> parts{};
+  char end = 0;
+  const int read = std::sscanf(text.c_str(), "%lf,%lf%c", &parts[0], &parts[1], &end);
+  const bool right = read == 2 && std::all_of(parts.begin(), parts.end(), [](double p) { return p >= 0.0 && p < 1.0; });
+  if (!right) {
+    throw StudyError("'beside=" + text +
+                     "' is no place within a cell; write parts of a cell along x and z, such as beside=0,0.5");
+  }
+  if (!problem.has_places) throw StudyError("beside: " + problem.name + " lies on rows of nodes alone; leave it out");
+  return parts;
+}
+
 Run resolve(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
   Run run{problem, {cells, {}}, {}};
   for (const Overrides* list : {&set, &variant}) {
@@ -55,6 +72,8 @@ Run resolve(const Problem& problem, double cells, const Overrides& variant, cons
         if (!(factor > 0.0))
           throw StudyError("'" + one + "' is no factor of the tool's speed; write one such as speed=0.5");
         run.problem.speed *= factor;
+      } else if (const auto beside = value_of(one, "beside")) {
+        run.setup.beside = place_beside(problem, *beside);
       } else {
         run.keys.push_back(one);
       }

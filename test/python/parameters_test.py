@@ -71,8 +71,7 @@ class Launches(unittest.TestCase):
             changes = "set:=['time.end=1000', 'grid.cell=0.02']"
             with self.launch("force_control.launch", "duration:=1000", changes) as launch:
                 # The last that roslaunch starts: interrupted while it starts something, it ends with 1.
-                self.assertTrue(eventually(lambda: controller_publishes(master)), launch.output())
-                self.assertTrue(step_service(master), launch.output())
+                self.assertTrue(eventually(lambda: controller_publishes(master) and step_service(master)), launch.output())
                 self.assertTrue(master.getParam("/use_sim_time"))
                 self.assertFalse(master.hasParam("/mpm/simulator/record_required"))
                 self.assertEqual(launch.end(), 0)

@@ -12,8 +12,9 @@
 
 namespace mpm::study::tool_force {
 
-/// Changes to a scene, as `run_scene --set` takes them: "contact.method=nodes". Two more change the problem:
-/// "law=mohr_coulomb" the law of the soil, and "speed=0.5" the tool's speed by a factor.
+/// Changes to a scene, as `run_scene --set` takes them: "contact.method=nodes". Three more change the
+/// problem: "law=mohr_coulomb" the law of the soil, "speed=0.5" the tool's speed by a factor, and "beside=0,0.5" lays
+/// tool and ground of a blade that part of a cell beside rows of nodes along x and above them along z.
 using Overrides = std::vector<std::string>;
 
 struct ForceOptions {

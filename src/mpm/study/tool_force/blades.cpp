@@ -57,7 +57,8 @@ std::string tool_section(const Problem& problem, const Kind& kind) {
 
 std::string blade_scene(const Problem& problem, const Setup& setup, const Kind& kind) {
   const double h = kDepth / setup.cells;
-  // Faces of the domain lie on nodes: whole cells from the surface and from the front, and what these lie beside nodes.
+  // Faces of the domain lie on nodes: whole cells from the surface and from the front, and the part of a cell by which
+  // these lie beside nodes.
   const auto cells = [&](double lengths) { return h * std::ceil(lengths * setup.cells); };
   const auto [aside, above] = setup.beside;
   const double low = -cells(2.0) - above * h, left = -cells(1.5) - aside * h, side = cells(3.0);

@@ -106,7 +106,7 @@ void ForceMeasure::look_at_particles(const Simulation& simulation) {
     const Vec3 from_tool = places_[i] - origin;
     if ((from_tool.array() < problem_.pressed.min.array()).any()) continue;
     if ((from_tool.array() > problem_.pressed.max.array()).any()) continue;
-    places_[chosen] = places_[i];
+    places_[chosen] = places_[i] - simulation.definition().grid.min;  // cells are the grid's
     values_[chosen++] = values_[i];
   }
   places_.resize(chosen);

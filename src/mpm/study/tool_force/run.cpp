@@ -57,7 +57,7 @@ std::array<double, 2> place_beside(const Problem& problem, const std::string& te
     throw StudyError("'beside=" + text +
                      "' is no place within a cell; write parts of a cell along x and z, such as beside=0,0.5");
   }
-  if (!problem.has_places) throw StudyError("beside: " + problem.name + " lies on rows of nodes alone; leave it out");
+  if (!problem.has_places) throw StudyError("beside: " + problem.name + " is made on rows of nodes only; leave it out");
   return parts;
 }
 

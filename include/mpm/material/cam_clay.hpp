@@ -36,6 +36,7 @@ namespace mpm {
 
 class CamClay : public LawTraits {
  public:
+  static constexpr bool kSoil = true;
   static constexpr int kHistory = 4;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de
   static constexpr int kOpening = 1;        ///< fall of v over kappa by which the clay has opened beyond p = 0

@@ -35,6 +35,7 @@ namespace mpm {
 
 class DruckerPrager : public LawTraits {
  public:
+  static constexpr bool kSoil = true;
   static constexpr bool kAveragesStress = true;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;

@@ -27,6 +27,7 @@ namespace mpm {
 
 class MohrCoulomb : public LawTraits {
  public:
+  static constexpr bool kSoil = true;
   static constexpr bool kAveragesStress = true;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de, as in Drucker-Prager

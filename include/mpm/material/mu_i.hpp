@@ -24,6 +24,7 @@ namespace mpm {
 
 class MuI : public LawTraits {
  public:
+  static constexpr bool kSoil = true;
   static constexpr bool kAveragesStress = true;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;

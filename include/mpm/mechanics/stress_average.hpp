@@ -1,27 +1,28 @@
 // One stress for the particles of a cell that flow: against locking and ringing of soil, clay and metal.
 //
-// A flow rule ties the change of volume to the shear at every particle. A cell with four or eight particles
-// then forbids more motions than its nodes have: a slip band that is not parallel to the grid cannot form freely, and
-// what is pushed or pressed meets too much force. At the beginning of each step the particles of a cell whose plastic
-// strain has grown in the step before, of one body, and of soil those under pressure alone, get the mean of their
-// stresses, weighted by mass. So the cell flows as an element with one stress does; what is elastic stays as it is. The
-// mean stress of a cell does not change, and since the elastic region is convex, the mean of admissible stresses is
+// A flow rule ties the change of volume to the shear at every particle. A cell with four or eight particles then
+// forbids more motions than its nodes have: a slip band that is not parallel to the grid cannot form freely, and what
+// is pushed or pressed meets too much force. So the particles of one body in a cell that flow get the mean of their
+// stresses, weighted by mass, at the beginning of each step. A particle flows if its plastic strain has grown in the
+// step before; one of soil must be under pressure, too. The cell then flows as an element with one stress does; what is
+// elastic stays as it is. Since the elastic region is convex, the mean of admissible stresses of equal strength is
 // admissible. What the particles lose of their elastic energy is booked.
 //
 // They also share their volume ratio J, whose sum over the mass does not change: nothing but its stress would keep a
 // particle from swelling while its neighbour shrinks. Where the pressure follows from J (J2), sharing J is sharing the
-// pressure, and the mean of the stresses acts for one step.
+// pressure: of the mean stress the deviator stays, and its pressure acts with USL alone, for one step.
 //
 // A cell is that between nodes. A particle that has left its block since the last sort by more than half a cell counts
 // in the nearest cell of that block.
 //
 // Weak: a part of the locking remains, since a band is still smeared over cells. Cells do not move with the material.
-// Where few particles are left in a cell, there is less to average. Sharing pressures alone, and not deviators, was
-// tried: footings on clay and rough blades then meet 4 to 12 % more force at four and eight cells.
-// Source: an element with one stress or one pressure, J. C. Nagtegaal, D. M. Parks, J. R. Rice (1974), On numerically
-// accurate finite element solutions in the fully plastic range, Comput. Methods Appl. Mech. Eng. 4, 153-177, who show
-// why elements lock; that it is done to particles, and only where they flow, is this project's, and
-// doc/verification.md has what it changes.
+// Where few particles are left in a cell, there is less to average. With hardening the weaker particles of a cell lie
+// above their own strength until the next step returns them. In water the energy `pore_pressure` counts J that is
+// shared as flow. Sharing pressures alone, and not deviators, was tried: footings on clay and rough blades then meet 4
+// to 12 % more force at four and eight cells. Source: an element with one stress or one pressure, J. C. Nagtegaal, D.
+// M. Parks, J. R. Rice (1974), On numerically accurate finite element solutions in the fully plastic range, Comput.
+// Methods Appl. Mech. Eng. 4, 153-177, who show why elements lock; that it is done to particles, and only where they
+// flow, is this project's, and doc/verification.md has what it changes.
 #pragma once
 
 #include <array>

@@ -34,6 +34,8 @@ struct Stored {
 /// One particle's data as the average needs them.
 template <class Geometry, class T, class LawType>
 class Particles {
+  static_assert(LawType::kPlasticStrain >= 0, "what flows is known by its plastic strain");
+
  public:
   using Tensor = Stored<Geometry>;
   using Stress = typename Tensor::Stress;

@@ -18,6 +18,10 @@ constexpr double kWholeCells = 1e-6;
 // Largest number of cells along an axis: node numbers have 32 bits, and there are layers around the domain.
 constexpr double kMostGridCells = 1e8;
 
+// Part of FLIP in soil that flows, of what columns that fall, discs that are pressed in and blades meet
+// (doc/method_keys.md).
+constexpr double kFlipOfSoil = 0.98;
+
 Vec3 read_cell(const Value& value, const Scene& scene) {
   if (value.is_text()) return Vec3::Constant(value.positive(kLength));
   const Vec3 cell = value.vector(kLength);
@@ -196,17 +200,32 @@ void calm_growth(Scene& scene) {
                              "xpic 2: growing cracks set waves free, which flip leaves on the particles as noise");
 }
 
+/// The same where soil flows.
+void calm_soil(Scene& scene) {
+  scene.definition.method.transfer = Transfer{TransferKind::flip, kFlipOfSoil, 2};
+  scene.choices.emplace_back(
+      "method.transfer", fmt::format("flip {:g}: plain flip leaves noise in soil that flows, which shakes heaps and "
+                                     "the force on tools",
+                                     kFlipOfSoil));
+}
+
 std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   MethodDefinition& method = scene.definition.method;
   const auto section = root.find("method");
   const bool grows = cracks_may_grow(root);
+  const bool soil = std::any_of(scene.definition.materials.begin(), scene.definition.materials.end(),
+                                [](const auto& material) { return is_soil(make_law(material)); });
   if (!section || section->is_text()) {
     if (section) section->choice({"auto"});
     method.particles_per_direction = 2;
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
     AutoMethod all;
-    if (grows) calm_growth(scene);
-    all.keep_transfer = grows;
+    if (grows) {
+      calm_growth(scene);
+    } else if (soil) {
+      calm_soil(scene);
+    }
+    all.keep_transfer = grows || soil;
     return all;
   }
   const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
@@ -228,17 +247,22 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     scene.choices.emplace_back("method.update", "usavg: strain updated in both halves of a step, least dissipation");
   }
   const auto transfer = map.find("transfer");
+  const auto damping = map.find("damping");
+  // A part of PIC in the damping is such a fraction already.
+  const bool calms_soil = soil && !(damping && damping->is_map() && damping->node()["pic"]);
   if (transfer) {
     method.transfer = read_transfer(*transfer);
   } else if (grows) {
     calm_growth(scene);
+  } else if (calms_soil) {
+    calm_soil(scene);
   } else if (!chosen_later) {
     scene.choices.emplace_back("method.transfer", "flip: no numerical viscosity; write {flip: 0.99} to calm noise");
   }
   if (chosen_later) {
     chosen_later->keep_shape = shape.has_value();
     chosen_later->keep_update = update.has_value();
-    chosen_later->keep_transfer = transfer.has_value() || grows;
+    chosen_later->keep_transfer = transfer.has_value() || grows || calms_soil;
   }
   if (const auto average = map.find("average_dilatation")) {
     method.average_dilatation = average->choice({"false", "true"}) == 1;
@@ -246,7 +270,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   if (const auto average = map.find("average_stress")) {
     method.average_stress = average->choice({"false", "true"}) == 1;
   }
-  if (const auto damping = map.find("damping")) read_damping(*damping, scene);
+  if (damping) read_damping(*damping, scene);
   if (const auto terms = map.find("gradient_terms")) method.gradient_terms = terms->integer();
   if (const auto precision = map.find("precision")) {
     method.precision = precision->choice({"double", "single"}) == 0 ? Precision::float64 : Precision::float32;

@@ -62,11 +62,11 @@ std::string with_method(const YAML::Node& tree, const MethodDefinition& chosen) 
   return YAML::Dump(root);
 }
 
-/// Notes what a scene gets that does not say whether stresses are averaged.
+/// Notes whether stresses are averaged, where the scene does not say it.
 void tell_of_averages(Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
-  const bool flows = std::any_of(definition.materials.begin(), definition.materials.end(),
-                                 [](const auto& material) { return has_averaged_stress(make_law(material)); });
+  const bool flows = std::any_of(definition.bodies.begin(), definition.bodies.end(),
+                                 [&](const DeformableBody& body) { return shares_stress(definition, body); });
   if (!flows || definition.method.average_stress) return;
   if (averages_stress(definition.method, definition.geometry, definition.cracks.any())) {
     scene.choices.emplace_back("method.average_stress",
@@ -119,13 +119,13 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   if (const auto constants = root.find("constants")) read_constants(*constants, context.constants);
   read_geometry(root, context, scene);
   read_grid(root, scene);
+  read_materials(root, scene);
   const std::optional<AutoMethod> asked = read_method(root, scene);
   if (const auto gravity = root.find("gravity")) {
     definition.gravity = gravity->vector(kAcceleration);
   } else {
     scene.choices.emplace_back("gravity", "none: the scene names none");
   }
-  read_materials(root, scene);
   read_bodies(root, scene);
   read_rigid_bodies(root, scene);
   read_contact_pairs(root, scene);

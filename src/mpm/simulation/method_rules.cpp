@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mpm/kernel/select.hpp"
+#include "state.hpp"
 
 namespace mpm {
 namespace {
@@ -151,12 +153,19 @@ bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool
   return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation && !cracks);
 }
 
-bool has_averaged_stress(const Law& law) {
-  return std::visit([](const auto& own) { return own.kAveragesStress; }, law);
+bool is_soil(const Law& law) {
+  return std::visit([](const auto& own) { return own.kSoil; }, law);
 }
 
-bool finds_pressure_from_volume(const Law& law) {
-  return std::visit([](const auto& own) { return own.kPressureFromVolume; }, law);
+bool shares_stress(const SimulationDefinition& definition, const DeformableBody& body) {
+  const MaterialDefinition& material = find_material(definition, body);
+  const std::size_t number = &material - definition.materials.data();
+  const auto& quantities = definition.transport.quantities;
+  const bool expands = std::any_of(quantities.begin(), quantities.end(), [&](const QuantityDefinition& quantity) {
+    return number < quantity.materials.size() && quantity.materials[number].expansion != 0.0;
+  });
+  return std::visit([&](const auto& law) { return law.kAveragesStress && !(law.kPressureFromVolume && expands); },
+                    make_law(material));
 }
 
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {

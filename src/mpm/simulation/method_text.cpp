@@ -64,7 +64,8 @@ std::string method_text(const MethodDefinition& method) {
   }
   if (axis.motion != usual.motion) join(text, "moved by the mean velocity in a domain");
   if (method.average_dilatation) join(text, "averaged dilatation");
-  if (method.average_stress) join(text, *method.average_stress ? "averaged stress of soil" : "stress of soil as it is");
+  if (method.average_stress)
+    join(text, *method.average_stress ? "averaged stress of what flows" : "stress of what flows as it is");
   if (method.damping.any()) join(text, "damping: " + damping_text(method.damping));
   return text;
 }

@@ -14,6 +14,7 @@ constexpr double kEdge = 0.9;          ///< cosine between the look and the norm
 constexpr double kLeast = 0.1;         ///< S of a point that counts
 constexpr double kLeastPart = 1e-3;    ///< cover of a node that counts
 constexpr double kWhole = 1.0 - 1e-6;  ///< part of a hat inside the edge that is all: round-off must not make an edge
+constexpr double kLeastFront = 5e-3;   ///< part of a hat in front of a face: splines reach nodes that have none
 constexpr double kHalf = 0.5;          ///< cover from which on a node decides with its whole weight
 constexpr double kFurther = 0.1;       ///< cells by which an edge acts further out than it lies
 constexpr double kThinnest = 1e-2;     ///< mass beyond an edge, over that of the node, from which on there is material
@@ -72,7 +73,6 @@ double hat_part(double cells) {
 /// Part of a node's mass that lies before the face, of the parts of its hat function that lie on the covered side of
 /// the edge and in front of the plane of the face; `backed`: how full it is behind that plane beyond the edge.
 double part_before(double covered, double front, double backed) {
-  if (!(front > 0.0)) return covered;  // behind the plane by more than a cell, where splines reach
   const double before = covered * front, beyond = (1.0 - covered) * (front + backed * (1.0 - front));
   return before / (before + beyond);
 }
@@ -142,7 +142,8 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
       const NodeRef behind = nearest_node(grid, place + cell * across + into);
       const double least = behind.block < 0 ? 0.0 : std::min(mass_of(behind), mass_of(further));
       const double backed = std::min(1.0, least / mass_of(ref));
-      const double front = hat_part(((place - point.place).dot(point.normal) + point.gap) / into.norm());
+      const double ahead = ((place - point.place).dot(point.normal) + point.gap) / into.norm();
+      const double front = std::max(hat_part(ahead), kLeastFront);
       const double own = part_before(hat_part(within), front, backed);
       const double of_further = part_before(hat_part(within - 1.0), front, backed);
       const double part = (own - of_further) / (1.0 - of_further);

@@ -16,8 +16,8 @@ namespace tool_places_test {
 
 namespace tool_force = mpm::study::tool_force;
 
-/// Expects the mean over places within a cell of a force over the exact one to be within `error` of 1, or of the interval
-/// of its bounds over the upper one, and its standard deviation to be below `most_spread`.
+/// Expects the mean over places within a cell of a force over the exact one to be within `error` of 1, or of the
+/// interval of its bounds over the upper one, and its standard deviation to be below `most_spread`.
 void expect_over_places(const std::string& name, double cells, double error, double most_spread) {
   const std::vector<std::string> places = {"0,0", "0,0.25", "0,0.5", "0,0.75", "0.5,0.5"};
   double sum = 0.0, squares = 0.0, least = 1.0;
@@ -46,7 +46,8 @@ TEST(ToolPlaces, BladesMeetTheSameForceAnywhereOnTheGrid) {
   expect_over_places("blade_flat", 8.0, 0.05, 0.04);
 }
 
-// (2 + pi) c a unit of width (Prandtl 1920), in the mean from 4 to 5.5 % of the width. Without shared stress 1.44 of it.
+// (2 + pi) c a unit of width (Prandtl 1920), in the mean from 4 to 5.5 % of the width. Without shared stress 1.44 of
+// it.
 TEST(ToolPlaces, AStripOnClayOfMisesYield) {
   constexpr double kCohesion = 1500.0, kHalfWidth = 0.3, kSpeed = 0.006;
   mpm::Simulation simulation = verification::start("strip_mises_clay");

@@ -18,6 +18,7 @@ namespace edge_cover_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kCell = 0.1;
+constexpr double kSeen = 1e-5;    ///< [m/s]: a millionth of a node taken for all, of velocities 10 m/s apart
 constexpr double kFurther = 0.1;  ///< cells by which an edge acts further out than it lies
 
 /// A field whose nodes all carry 1 kg, from 0 to 2 m along each axis.
@@ -118,7 +119,7 @@ double hat_beyond(double cells) {
   return c < 0.0 ? 0.5 * (1.0 + c) * (1.0 + c) : 1.0 - 0.5 * (1.0 - c) * (1.0 - c);
 }
 
-// What is before the face moves with one velocity, what is below the edge with another, and a node's velocity is the
+// Material before the face moves with one velocity, that below the edge with another, and a node's velocity is the
 // mean by its hat function, which is what a grid sees of two rigid halves. The point sees the upper velocity,
 // wherever the edge and the point lie between the nodes. Soil behind the plane of the face carries what acts on the
 // nodes below, so that an impulse is spread as the velocity is seen, and no energy is lost.
@@ -133,7 +134,7 @@ TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
     };
     for (const double above : {0.01, 0.04, 0.08, 0.13}) {
       const Around found = around(field, body, {0.63, 0.0, edge + above}, Vec3::UnitX());
-      EXPECT_NEAR(found.seen(field, velocity), 3.0, 1e-5) << edge << ' ' << above;
+      EXPECT_NEAR(found.seen(field, velocity), 3.0, kSeen) << edge << ' ' << above;
       double whole = 0.0;
       for (const PointNode& node : found.nodes) {
         whole += node.weight;
@@ -201,7 +202,7 @@ TEST(EdgeCover, NothingPullsAtAFreeSurface) {
   };
   const Around found = around(field, body, {edge - 0.01, 0.0, ground}, -Vec3::UnitZ());
   EXPECT_TRUE(found.at_edge);
-  EXPECT_NEAR(found.seen(field, velocity), -3.0, 1e-5);
+  EXPECT_NEAR(found.seen(field, velocity), -3.0, kSeen);
   double whole = 0.0;
   for (const PointNode& node : found.nodes) {
     const double inside = (edge - field.place(node.node).x()) / kCell + kFurther;
@@ -224,7 +225,7 @@ TEST(EdgeCover, OnCellsThatAreNotCubesToo) {
         return (above * front * 3.0 - (1.0 - above) * 7.0) / (above * front + 1.0 - above);
       };
       const Around found = around(field, body, {0.63, 0.0, edge + sense * 0.06}, Vec3::UnitX());
-      EXPECT_NEAR(found.seen(field, velocity), 3.0, 1e-5) << sense << ' ' << edge;
+      EXPECT_NEAR(found.seen(field, velocity), 3.0, kSeen) << sense << ' ' << edge;
     }
   }
 }
@@ -283,7 +284,7 @@ TEST(EdgeCover, InSpaceToo) {
     return (above * front * 3.0 - (1.0 - above) * 7.0) / (above * front + 1.0 - above);
   };
   const Around edge = around(field, body, {0.63, 1.02, 0.57}, Vec3::UnitX());
-  EXPECT_NEAR(edge.seen(field, velocity), 3.0, 1e-5);
+  EXPECT_NEAR(edge.seen(field, velocity), 3.0, kSeen);
   const Around corner = around(field, body, {0.63, 0.55, 0.56}, Vec3::UnitX());
   bool beside = false, below = false;
   for (const PointNode& node : corner.nodes) {

@@ -167,7 +167,7 @@ TYPED_TEST(StressAverageOf, MetalSharesInTensionToo) {
     EXPECT_NEAR(metal.stress(0, p), 1.5 * stress, tolerance * stress) << p;
     EXPECT_NEAR(metal.stress(1, p), 1.5 * stress, tolerance * stress) << p;
   }
-  // Of a small strain G/4 dev b : dev b a volume: deviators (2, -1, -1) become (0.5, 0.5, -1).
+  // Energy of a small strain, G/4 dev b : dev b a volume: deviators (2, -1, -1) become (0.5, 0.5, -1).
   const double lost = 2.0 * kMass / kDensity * kShear / 4.0 * (6.0 - 1.5) * 1e-6;
   EXPECT_NEAR(metal.energy(), lost, 3e-3 * lost);
 }

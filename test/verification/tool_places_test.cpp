@@ -38,7 +38,7 @@ void expect_over_places(const std::string& name, double cells, double error, dou
                                 std::to_string(mean) + " " + std::to_string(spread));
 }
 
-// What README.md promises of blades wherever they lie: a tenth at 4 cells of depth, a twentieth at 8.
+// Promises of README.md for blades wherever they lie: a tenth at 4 cells of depth, a twentieth at 8.
 TEST(ToolPlaces, BladesMeetTheSameForceAnywhereOnTheGrid) {
   for (const char* name : {"blade_flat", "blade_chisel", "blade_rough", "blade_flat_0"}) {
     expect_over_places(name, 4.0, 0.1, 0.05);

@@ -24,23 +24,22 @@
 // nothing can be pulled. So only the part f of it acts, the lesser of the masses of the node beyond and of the one
 // behind that, over the mass of node i, at most 1, so that no light node is pulled faster than r_i J would push node i;
 // and node i gets r_i (s_i + f_i (1 - s_i)) J: the sum is 1 for every f. Of U_i the part 1 - f_i is that before the
-// impulses, so that points answer each other symmetrically: within a hundredth along the
-// grid's axes, within a few
-// per cent where an edge is oblique, since the node nearest to one cell further out is less far then. What the nodes
-// take over is less than the tool's work by J . sum r_i (1 - f_i)(1 - s_i)(u_i - U_i), with U_i before the impulses:
-// the work of cutting the material inside the cells at the edge.
+// impulses, so that points answer each other symmetrically: within a hundredth along the grid's axes, within a few per
+// cent where an edge is oblique, since the node nearest to one cell further out is less far then. What the nodes take
+// over is less than the tool's work by J . sum r_i (1 - f_i)(1 - s_i)(u_i - U_i), with U_i before the impulses: the
+// work of cutting the material inside the cells at the edge.
 //
 // The part m is that of the node's hat function. Let B be the part of it that lies inside the edge: of a node c cells
 // inside, 1 - (1 - c)^2 / 2, of one -c cells outside, (1 + c)^2 / 2; and A the part that lies in front of the
 // plane of the face. Before the face lies A B; beyond the edge 1 - B, on both sides of that plane where material lies
-// behind it, so m = A B / (A B + (1 - B) (A + f (1 - A))). So tools on rows of nodes and between them meet nearly the
-// same: with a cover that is whole from half a cell inside on, a blade between two rows drags the soil below it along,
-// and acts half a cell deeper than one on a row. With t out of the face across its edge, h the length of a cell along
-// t, and d n the signed distance and normal of the tool at x_i + h t, c = 1 - (d n).t / h + e. e = 0.1, which is
-// measured: the mean over places of the grid of smooth and rough blades, thick and thin, is then nearest to exact. With
-// e = 0 thick blades act a fifth of a cell too short, since particles lie on one side of the edge or the other by their
-// centres, and the lowest that a face pushes lies inside the edge; thin blades, whose two sides have a velocity field
-// each, hardly do.
+// behind it, so m = A B / (A B + (1 - B) (A + f (1 - A))); n is the same with c - 1. So tools on rows of nodes and
+// between them meet nearly the same: with a cover that is whole from half a cell inside on, a blade between two rows
+// drags the soil below it along, and acts half a cell deeper than one on a row. With t out of the face across its edge,
+// h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + h t, c = 1 - (d n).t / h
+// + e. e = 0.1, which is measured: the mean over places of the grid of smooth and rough blades, thick and thin, is then
+// nearest to exact. With e = 0 thick blades act a fifth of a cell too short, since particles lie on one side of the
+// edge or the other by their centres, and the lowest that a face pushes lies inside the edge; thin blades, whose two
+// sides have a velocity field each, hardly do.
 //
 // The directions t are found from the surface itself, by looking two cells along it from the point: beyond an edge the
 // nearest surface lies straight back, while a surface that is round, or goes on behind a bend, lies aside. Faces
@@ -51,9 +50,8 @@
 // covered. Where two edges are near, the lesser cover counts, not the product. Splines are taken for hats. Material
 // that ends at the edge between two rows of nodes counts as going on where more than a hundredth of a node's mass lies
 // beyond. What is cut shears without strength within a cell of the edge.
-// Source: derived for this project;
-// doc/methods.md has the forces on blades and strips with and without it, doc/contact.md those at other places of the
-// grid.
+// Source: derived for this project; doc/methods.md has the forces on blades and strips with and without it,
+// doc/contact.md those at other places of the grid.
 #pragma once
 
 #include <vector>

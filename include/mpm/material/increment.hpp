@@ -27,12 +27,12 @@ struct LawTraits {
   /// Whether only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid
   /// shears without end, and det F of its whole deformation would be a small difference of large numbers.
   static constexpr bool kForgetsShape = false;
-  /// Whether it is a law of soil: grains that rub, whose flow sheds noise (calm_soil in scene/method_section.cpp).
+  /// True for a law of soil: grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).
   static constexpr bool kSoil = false;
-  /// Whether particles of a cell that flow may share one stress (mechanics/stress_average.hpp): the law has a plastic
+  /// True if particles of a cell that flow may share one stress (mechanics/stress_average.hpp): the law has a plastic
   /// strain, keeps the stress or finds it from J, and its elastic_energy() does not ask for F.
   static constexpr bool kAveragesStress = false;
-  /// Whether such a law finds the pressure from J. Its particles then share in tension, too: it does not open as soil.
+  /// True if such a law finds the pressure from J. Its particles then share in tension, too: it does not open as soil.
   static constexpr bool kPressureFromVolume = false;
   /// Largest kinematic viscosity for any motion at the present J [m^2/s].
   template <class T>

@@ -50,7 +50,7 @@ struct MethodDefinition {
   UpdateScheme update = UpdateScheme::usavg;
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
-  /// Whether what flows has one stress in a cell (mechanics/stress_average.hpp); see averages_stress().
+  /// True gives what flows one stress in a cell (mechanics/stress_average.hpp); see averages_stress().
   std::optional<bool> average_stress;
   DampingDefinition damping;
   AxisRules axis;                            ///< axisymmetric scenes alone

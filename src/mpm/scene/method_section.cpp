@@ -193,39 +193,36 @@ void read_grid(const Map& root, Scene& scene) {
   }
 }
 
-/// What moves particles where the scene does not say it and cracks grow.
-void calm_growth(Scene& scene) {
-  scene.definition.method.transfer = Transfer{TransferKind::xpic, 1.0, 2};
-  scene.choices.emplace_back("method.transfer",
-                             "xpic 2: growing cracks set waves free, which flip leaves on the particles as noise");
-}
-
-/// The same where soil flows.
-void calm_soil(Scene& scene) {
-  scene.definition.method.transfer = Transfer{TransferKind::flip, kFlipOfSoil, 2};
-  scene.choices.emplace_back(
-      "method.transfer", fmt::format("flip {:g}: plain flip leaves noise in soil that flows, which shakes heaps and "
-                                     "the force on tools",
-                                     kFlipOfSoil));
+/// Chooses a transfer, which the scene does not name, where plain FLIP would leave noise: where cracks grow and where
+/// soil flows, unless damping has a `part_of_pic` already. Returns whether it did.
+bool calm(bool cracks_grow, bool part_of_pic, Scene& scene) {
+  Transfer& transfer = scene.definition.method.transfer;
+  if (cracks_grow) {
+    transfer = Transfer{TransferKind::xpic, 1.0, 2};
+    scene.choices.emplace_back("method.transfer",
+                               "xpic 2: growing cracks set waves free, which flip leaves on the particles as noise");
+    return true;
+  }
+  const auto& materials = scene.definition.materials;
+  const auto soil = [](const auto& material) { return is_soil(make_law(material)); };
+  if (part_of_pic || std::none_of(materials.begin(), materials.end(), soil)) return false;
+  transfer.flip = kFlipOfSoil;
+  scene.choices.emplace_back("method.transfer", fmt::format("flip {:g}: plain flip leaves noise in soil that flows, "
+                                                            "which shakes heaps and the force on tools",
+                                                            kFlipOfSoil));
+  return true;
 }
 
 std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   MethodDefinition& method = scene.definition.method;
   const auto section = root.find("method");
   const bool grows = cracks_may_grow(root);
-  const bool soil = std::any_of(scene.definition.materials.begin(), scene.definition.materials.end(),
-                                [](const auto& material) { return is_soil(make_law(material)); });
   if (!section || section->is_text()) {
     if (section) section->choice({"auto"});
     method.particles_per_direction = 2;
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
     AutoMethod all;
-    if (grows) {
-      calm_growth(scene);
-    } else if (soil) {
-      calm_soil(scene);
-    }
-    all.keep_transfer = grows || soil;
+    all.keep_transfer = calm(grows, false, scene);
     return all;
   }
   const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
@@ -248,21 +245,17 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   }
   const auto transfer = map.find("transfer");
   const auto damping = map.find("damping");
-  // A part of PIC in the damping is such a fraction already.
-  const bool calms_soil = soil && !(damping && damping->is_map() && damping->node()["pic"]);
+  const bool part_of_pic = damping && damping->is_map() && damping->node()["pic"];
+  const bool kept = transfer.has_value() || calm(grows, part_of_pic, scene);
   if (transfer) {
     method.transfer = read_transfer(*transfer);
-  } else if (grows) {
-    calm_growth(scene);
-  } else if (calms_soil) {
-    calm_soil(scene);
-  } else if (!chosen_later) {
+  } else if (!kept && !chosen_later) {
     scene.choices.emplace_back("method.transfer", "flip: no numerical viscosity; write {flip: 0.99} to calm noise");
   }
   if (chosen_later) {
     chosen_later->keep_shape = shape.has_value();
     chosen_later->keep_update = update.has_value();
-    chosen_later->keep_transfer = transfer.has_value() || grows || calms_soil;
+    chosen_later->keep_transfer = kept;
   }
   if (const auto average = map.find("average_dilatation")) {
     method.average_dilatation = average->choice({"false", "true"}) == 1;

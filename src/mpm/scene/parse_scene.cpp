@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mpm/material/law.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/geometry_rules.hpp"

@@ -29,7 +29,7 @@ Scene ploughed(const std::string& velocity = {}, const std::string& place = {}) 
   return load_scene(source_folder() + "/test/verification/scenes/ranks_sleep.yaml", set);
 }
 
-/// Of all steps of a run: the part of the particles that are awake, and the part with the tool in contact.
+/// The part of the particles that are awake, and the part of the steps with the tool in contact, over all of a run.
 Rehearsal outcome(const Scene& scene) {
   Simulation run(build(scene), SimulationOptions{1});
   Rehearsal sums{1.0, 1.0, 0.0, 0.0, 0.0};
@@ -143,7 +143,7 @@ TEST(Rehearsal, ACoarserSceneFillsItsGrid) {
   EXPECT_FALSE(coarser_scene(scene, 1.001));
 }
 
-// What is foreseen from some steps of a copy against what the run takes: elastic bodies whose wave speed hardly
+// Steps foreseen from some of a copy against those that the run takes: elastic bodies whose wave speed hardly
 // changes, free, vibrating, and pressed by a tool in axisymmetry. Within a fifth; 1 s of computing.
 TEST(Forecast, StepsAreThoseThatTheRunTakes) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {

@@ -28,7 +28,7 @@ struct Forecast {
   double wall_seconds() const { return steps() * cost.step_seconds; }
   /// True if the steps that were timed are so many of the run's that they stand for it.
   bool of_run() const { return simulated > 0.0 && static_cast<double>(cost.steps) >= kOfRun * steps(); }
-  /// Whether what is to come may change the cost of a step, so that a rehearsal is worth its time.
+  /// True if the cost of a step may change in what is to come, so that a rehearsal is worth its time.
   bool changes() const {
     return simulated > 0.0 && !of_run() && cost.rehearsed == 0.0 && (sleeps || (tools && !cost.touched));
   }

@@ -1,5 +1,5 @@
-// What is still to come in a run when its first steps are timed: material that falls asleep or wakes, tools that touch
-// later, soil that stiffens. A rehearsal finds it: the same scene on a grid so coarse that all of it, or a good part,
+// A rehearsal of a run finds what is still to come when its first steps are timed: material that falls asleep or wakes,
+// tools that touch later, soil that stiffens. It is the same scene on a grid so coarse that all of it, or a good part,
 // can be run first. How many particles are awake, when a tool touches and how steps shorten hardly depend on the cell;
 // what a step costs does, and that is timed on the run's own grid.
 //
@@ -26,9 +26,9 @@ struct Rehearsal {
   double particle_step = 0.0;  ///< of an awake particle [s]
 };
 
-/// Runs `coarse` for a budget of wall time [s] at most, building and settling included. `coarser`: how many times its
-/// cells are as wide as those of the run. Returns nothing where it could not be run or not one sync period was made.
-/// @throws StoppedError when `stop` was true
+/// Runs `coarse` for a budget of wall time [s] at most, settling included. `coarser`: how many times its cells are as
+/// wide as those of the run. Returns nothing where it could not be run or not one sync period was made.
+/// @throws StoppedError when `stop` was true, std::bad_alloc
 std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, int threads, std::optional<Isa> isa,
                                   double budget, const std::function<bool()>& stop = {},
                                   const WallClock& clock = steady_seconds);

@@ -27,7 +27,7 @@ struct StepCost {
 
 /// Part of the particles that does not sleep.
 double part_awake(const Simulation& simulation);
-/// Whether a rigid body has been in contact since it was asked last.
+/// True if a rigid body has been in contact since this was asked last.
 bool touches(Simulation& simulation);
 
 /// A clock that never runs backwards [s].

@@ -21,8 +21,9 @@ struct ExpectedPace {
 /// Steps are timed for so long at most, the time to build a copy left out [s].
 inline constexpr double kTimingBudget = 0.4;
 
-/// Of a run to be made. `may_time`: where no cost is kept, a copy is timed, which takes a second at most; not of scenes
-/// with more than a million particles. Returns nothing where the cost is not known, or the scene cannot be simulated.
+/// Foresees a run to be made. `may_time`: where no cost is kept, a copy is timed, which takes a second at most, and
+/// rehearsed, which takes as long; not of scenes with more than a million particles. Returns nothing where the cost is
+/// not known, or the scene cannot be simulated.
 /// @throws mpm::StoppedError
 std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOptions& options, double wanted,
                                           bool may_time);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -14,7 +13,7 @@ constexpr double kLastPart = 0.75;    ///< of the time that was reached; what fo
 constexpr double kLeastAwake = 0.05;  ///< part of the particles, from which on their cost can be told from a step's
 constexpr double kLeastSteps = 20.0;  ///< with and without contact, from which on their costs can be compared
 
-/// What one sync period was like.
+/// Counts of one sync period.
 struct Period {
   double steps = 0.0, awake = 0.0, wall = 0.0;
   bool touched = false;
@@ -45,7 +44,7 @@ Rehearsal of_periods(const std::vector<Period>& periods, double all) {
   found.touched = sums.touched / sums.steps;
   found.steps = sums.steps / sums.count / periods.front().steps;
   found.particle_step = (sums.free_wall + sums.touched_wall) / (sums.free_steps + sums.touched_steps);
-  if (sums.free_steps > kLeastSteps * sums.awake / sums.steps && sums.touched > kLeastSteps) {
+  if (sums.steps - sums.touched > kLeastSteps && sums.touched > kLeastSteps) {
     const double without = sums.free_wall / sums.free_steps;
     found.contact = std::max(1.0, sums.touched_wall / sums.touched_steps / without);
   }
@@ -83,9 +82,7 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
   } catch (const StoppedError&) {
     // Its time is over.
   } catch (const Error&) {
-    // What it found until it failed counts; a scene that a coarse grid cannot have says nothing.
-  } catch (const std::bad_alloc&) {
-    return std::nullopt;
+    // Periods until it failed count; a scene that a coarse grid cannot have has none.
   }
   if (stopped()) throw StoppedError("stopped while the run was rehearsed");
   if (periods.empty()) return std::nullopt;

@@ -40,12 +40,14 @@ Forecast forecast_of(const mpm::Scene& scene, const mpm::pace::StepCost& cost, s
   return forecast;
 }
 
-/// Makes a forecast by the first steps one of the whole run, where what is to come may change their cost.
-void rehearse(const mpm::Scene& scene, mpm::Isa isa, double budget, const std::function<bool()>& stop,
+/// Makes a forecast by the first steps one of the whole run, where what is to come may change their cost. Returns true
+/// if it did.
+bool rehearse(const mpm::Scene& scene, mpm::Isa isa, double budget, const std::function<bool()>& stop,
               Forecast& forecast) {
-  if (!forecast.changes()) return;
+  if (!forecast.changes()) return false;
   const auto found = rehearse_scene(scene, forecast, isa, budget, stop);
   if (found) forecast.cost = mpm::pace::of_whole_run(forecast.cost, *found, forecast.particles);
+  return found.has_value();
 }
 
 std::size_t count(const mpm::SimulationDefinition& definition) {
@@ -92,9 +94,11 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
   const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), isa, options.threads);
   const std::int64_t now = mpm::pace::wall_time();
   ExpectedPace pace;
-  if (const auto kept = costs.find(key, now)) {
+  std::int64_t when = now;
+  const auto kept = costs.find(key, now);
+  if (kept) {
     pace.forecast = forecast_of(scene, kept->cost, kept->particles, kept->threads);
-    pace.origin = timed_text(pace.forecast, now - kept->when);
+    when = kept->when;
   } else if (may_time) {
     try {
       mpm::SimulationDefinition built = mpm::build(scene, nullptr, options.stop);
@@ -102,7 +106,6 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
       const auto timed = mpm::pace::time_copy(std::move(built), options.threads, isa, kTimingBudget, options.stop);
       if (!timed) return std::nullopt;
       pace.forecast = *timed;
-      rehearse(scene, isa, kRehearsalOfNode, options.stop, pace.forecast);
     } catch (const mpm::StoppedError&) {
       throw;
     } catch (const mpm::Error&) {
@@ -110,11 +113,13 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
     } catch (const std::bad_alloc&) {
       return std::nullopt;  // this too
     }
-    costs.keep(key, {pace.forecast.cost, pace.forecast.threads, pace.forecast.particles, now});
-    pace.origin = timed_text(pace.forecast, 0);
   } else {
     return std::nullopt;
   }
+  if (may_time && (rehearse(scene, isa, kRehearsalOfNode, options.stop, pace.forecast) || !kept)) {
+    costs.keep(key, {pace.forecast.cost, pace.forecast.threads, pace.forecast.particles, when});
+  }
+  pace.origin = timed_text(pace.forecast, now - when);
   pace.plan =
       mpm::pace::make_plan(scene.definition, pace.forecast, wanted, mpm::useful_threads(pace.forecast.particles));
   return pace;

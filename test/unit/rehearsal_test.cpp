@@ -120,6 +120,21 @@ TEST(Rehearsal, MakesAForecastOneOfTheWholeRun) {
             "rehearsal in cells 2 times as wide foresees it, with 60 % of the material awake");
 }
 
+// Blocks twice as wide hold four times as much in a plane, where little moves; as much, where nearly all does.
+TEST(Rehearsal, TwoGridsSayWhatIsAwakeOnTheOwnOne) {
+  Rehearsal coarse, fine;
+  coarse.coarser = 4.0;
+  fine.coarser = 2.0;
+  coarse.awake = 0.56;
+  fine.awake = 0.14;
+  EXPECT_DOUBLE_EQ(awake_by(coarse, fine, 2), 0.035);
+  EXPECT_DOUBLE_EQ(awake_by(coarse, fine, 1), 0.07);
+  coarse.awake = fine.awake = 0.9;
+  EXPECT_DOUBLE_EQ(awake_by(coarse, fine, 2), 0.9);
+  coarse.awake = 0.8;
+  EXPECT_DOUBLE_EQ(awake_by(coarse, fine, 2), 0.9);
+}
+
 TEST(Rehearsal, CellsFollowFromTheBudget) {
   EXPECT_DOUBLE_EQ(cell_factor(16.0, 1.0, 3), 2.0);
   EXPECT_DOUBLE_EQ(cell_factor(1.0, 8.0, 2), 0.5);

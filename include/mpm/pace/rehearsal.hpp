@@ -3,7 +3,8 @@
 // can be run first. How many particles are awake, when a tool touches and how steps shorten hardly depend on the cell;
 // what a step costs does, and that is timed on the run's own grid.
 //
-// Weak: blocks of a coarse grid are larger, so more of the material round a tool is awake in them; a tool much smaller
+// Weak: blocks of a coarse grid are larger, so more of the material round a tool is awake in them, for which two
+// rehearsals are needed to allow; a tool much smaller
 // than the coarse cell may touch little; what lies beyond the budget is taken to go on as the last quarter before.
 #pragma once
 
@@ -35,6 +36,11 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
 
 /// The mean cost of the run's steps, and their number a second, from those that were timed at its start.
 StepCost of_whole_run(const StepCost& start, const Rehearsal& rehearsal, std::uint64_t particles);
+
+/// Part of the particles that is awake on the run's own grid, by rehearsals on two coarser ones, of `axes` axes: what
+/// sleeps does so by blocks, so the part falls as a power of the cell, between 0 (all that moves fills many blocks) and
+/// the number of axes (it lies in a few).
+double awake_by(const Rehearsal& coarse, const Rehearsal& fine, int axes);
 
 /// By how much cells have to be wider, so that what takes `seconds` takes `budget` [s]: cost goes as the cell to the
 /// power of the axes, and of one more for time. Below 1 where they can be smaller.

@@ -111,6 +111,11 @@ StepCost of_whole_run(const StepCost& start, const Rehearsal& rehearsal, std::ui
   return whole;
 }
 
+double awake_by(const Rehearsal& coarse, const Rehearsal& fine, int axes) {
+  const double power = std::log(coarse.awake / fine.awake) / std::log(coarse.coarser / fine.coarser);
+  return fine.awake / std::pow(fine.coarser, std::clamp(power, 0.0, static_cast<double>(axes)));
+}
+
 double cell_factor(double seconds, double budget, int axes) {
   return std::pow(seconds / budget, 1.0 / (1.0 + static_cast<double>(axes)));
 }

@@ -46,8 +46,10 @@ std::optional<Rehearsal> rehearse_scene(const mpm::Scene& scene, const Forecast&
   const double left = (budget - first->wall) / kEnough;
   const double finer = std::max(kLeastCoarser, times * mpm::pace::cell_factor(first->wall, left, axes));
   if (finer > kFiner * times) return first;
-  const auto second = on_cells(scene, finer, timed.threads, isa, budget - first->wall, stop);
-  return second && second->reached >= kEnough ? second : first;
+  auto second = on_cells(scene, finer, timed.threads, isa, budget - first->wall, stop);
+  if (!second || second->reached < kEnough) return first;
+  second->awake = mpm::pace::awake_by(*first, *second, axes);
+  return second;
 }
 
 }  // namespace mpm_ros

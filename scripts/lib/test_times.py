@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""test_times.py ROOT TIMES [NAME=FOLDER...]: prints how long the stages of scripts/test took (TIMES: lines of name, tab,
-microseconds), the labels of CTest in each build folder, and the 20 slowest cases beside what the head of their file says
+"""test_times.py ROOT TIMES [NAME=CTEST.xml...]: prints how long the stages of scripts/test took (TIMES: lines of name, tab,
+microseconds), the labels of CTest in each report, and the 20 slowest cases beside what the head of their file says
 that it costs."""
 
 import re
@@ -27,16 +27,16 @@ def said_cost(root, test):
 
 
 def main():
-    root, times, builds = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
+    root, times, runs = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     stages = [(name, 1e-6 * float(taken)) for name, taken in (line.split("\t") for line in times.read_text().splitlines())]
     labels, cases = {}, []
-    for build in builds:
-        name, folder = build.split("=", 1)
-        for test, seconds, _ in count_cases.ctest_tests(Path(folder) / "ctest.xml"):
+    for run in runs:
+        name, tests = run.split("=", 1)
+        for test, seconds, _ in count_cases.ctest_tests(tests):
             label = f"{name} {test.partition('.')[0]}"
             labels[label] = labels.get(label, 0.0) + seconds
             cost = said_cost(root, test)
-            report = Path(folder) / "test_results" / f"{test}.xml"
+            report = Path(tests).parent / "test_results" / f"{test}.xml"
             if report.is_file():
                 cases += [(taken, f"{name} {test}: {case}", cost) for case, taken, _ in count_cases.gtest_cases(report)]
             else:

@@ -1,5 +1,5 @@
 // The forecast of a run's pace: the timer of steps against a clock that is made up, its arithmetic, what is proposed to
-// reach a pace, costs that are kept; and steps that are foreseen against those that runs take.
+// reach a pace, and costs that are kept. What is foreseen against what runs take is in rehearsal_test.cpp.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -224,7 +224,7 @@ class KeptCostsTest : public ::testing::Test {
   }
   ~KeptCostsTest() override { fs::remove_all(folder_); }
   std::string file() const { return (folder_ / "made" / "on_demand.csv").string(); }
-  const KeptCost cost_{{0.0123, 1400.0, 70, 0.25, false}, 2, 41600, 1'000'000};
+  const KeptCost cost_{{0.0123, 1400.0, 70, 0.25, false, 2.5}, 2, 41600, 1'000'000};
   fs::path folder_;
 };
 
@@ -239,6 +239,7 @@ TEST_F(KeptCostsTest, AreFoundForADay) {
   EXPECT_EQ(found->cost.steps, 70U);
   EXPECT_EQ(found->cost.awake, 0.25);
   EXPECT_FALSE(found->cost.touched);
+  EXPECT_EQ(found->cost.rehearsed, 2.5);
   EXPECT_EQ(found->threads, 2);
   EXPECT_EQ(found->particles, 41600U);
   EXPECT_FALSE(costs.find("a", 1'000'000 + 86'401));
@@ -284,25 +285,6 @@ TEST_F(KeptCostsTest, BelongToSceneInstructionSetAndThreads) {
   EXPECT_NE(key, cost_key("another", Isa::plain, 1));
   EXPECT_NE(key, cost_key("scene", Isa::avx2, 1));
   EXPECT_NE(key, cost_key("scene", Isa::plain, 2));
-}
-
-// What is foreseen from some steps of a copy against what the run takes: elastic bodies whose wave speed hardly
-// changes, free, vibrating, and pressed by a tool in axisymmetry. Within a fifth; 2 s of computing.
-TEST(Pace, StepsAreThoseThatTheRunTakes) {
-  const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {
-      {"falling_block", {}}, {"elastic_block", {"time.end=0.2"}}, {"foam_probe", {"time.end=0.5"}}};
-  for (const auto& [name, set] : scenes) {
-    const Scene scene = load_scene(name, set);
-    const Timed timed = time_scene(scene, 20 * MadeUpClock::kTick);
-    ASSERT_TRUE(timed.cost);
-    Forecast forecast;
-    forecast.cost = *timed.cost;
-    forecast.simulated = scene.definition.time.end;
-    Simulation run(build(scene), SimulationOptions{1});
-    while (static_cast<double>(run.time()) * 1e-9 < scene.definition.time.end) run.advance();
-    const auto steps = static_cast<double>(run.state().step.steps);
-    EXPECT_NEAR(forecast.steps(), steps, 0.2 * steps) << name;
-  }
 }
 
 TEST(Pace, ThreadsAreThoseThatPay) {

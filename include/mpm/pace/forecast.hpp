@@ -1,8 +1,8 @@
 // How long a run will take, and its pace: simulated over wall time.
 //
 // A forecast and no promise: it takes the steps that were timed for all the others. Stepping alone, without outputs.
-// Reasons why others may cost more or less are said with it: a tool that has not touched yet, material that sleeps or
-// will.
+// Others may cost more or less: where a tool has not touched yet, or material sleeps or will. A rehearsal foresees that
+// (rehearsal.hpp); where there was none, the reasons are said with the forecast.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,10 @@ struct Forecast {
   double wall_seconds() const { return steps() * cost.step_seconds; }
   /// True if the steps that were timed are so many of the run's that they stand for it.
   bool of_run() const { return simulated > 0.0 && static_cast<double>(cost.steps) >= kOfRun * steps(); }
+  /// Whether what is to come may change the cost of a step, so that a rehearsal is worth its time.
+  bool changes() const {
+    return simulated > 0.0 && !of_run() && cost.rehearsed == 0.0 && (sleeps || (tools && !cost.touched));
+  }
   /// Simulated over wall time, as far as stepping sets it.
   double real_time_factor() const { return 1.0 / (cost.step_seconds * cost.steps_per_second); }
 };

@@ -48,6 +48,12 @@ constexpr double kMostlyAwake = 0.9;  ///< part of the particles: fewer sleep th
 /// Reasons why other steps than those that were timed may cost more or less.
 std::string unknown_text(const Forecast& forecast) {
   if (forecast.of_run()) return {};
+  const StepCost& cost = forecast.cost;
+  if (cost.rehearsed > 0.0) {
+    return fmt::format(
+        "; as a rehearsal in cells {:.2g} times as wide foresees it, with {:.0f} % of the material awake",
+        cost.rehearsed, 100.0 * cost.awake);
+  }
   std::string text;
   if (forecast.sleeps && forecast.cost.awake < kMostlyAwake) {
     text += fmt::format(

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kHeader = "key,step_seconds,steps_per_second,steps,threads,particles,when,awake,touched";
+constexpr const char* kHeader =
+    "key,step_seconds,steps_per_second,steps,threads,particles,when,awake,touched,rehearsed";
 
 struct Row {
   std::string key;
@@ -36,7 +37,7 @@ std::optional<Row> parse(std::string line) {
   Row row;
   KeptCost& kept = row.kept;
   words >> row.key >> kept.cost.step_seconds >> kept.cost.steps_per_second >> kept.cost.steps >> kept.threads >>
-      kept.particles >> kept.when >> kept.cost.awake >> kept.cost.touched;
+      kept.particles >> kept.when >> kept.cost.awake >> kept.cost.touched >> kept.cost.rehearsed;
   const auto good = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!words || !good(kept.cost.step_seconds) || !good(kept.cost.steps_per_second) || kept.threads < 1)
     return std::nullopt;
@@ -99,9 +100,9 @@ bool KeptCosts::keep(const std::string& key, const KeptCost& kept) const {
   file << kHeader << "\n";
   for (std::size_t i = rows.size() > kMost ? rows.size() - kMost : 0; i < rows.size(); ++i) {
     const KeptCost& of = rows[i].kept;
-    file << fmt::format("{},{:.6g},{:.9g},{},{},{},{},{:.4g},{:d}\n", rows[i].key, of.cost.step_seconds,
+    file << fmt::format("{},{:.6g},{:.9g},{},{},{},{},{:.4g},{:d},{:.3g}\n", rows[i].key, of.cost.step_seconds,
                         of.cost.steps_per_second, of.cost.steps, of.threads, of.particles, of.when, of.cost.awake,
-                        of.cost.touched);
+                        of.cost.touched, of.cost.rehearsed);
   }
   file.close();
   if (file) fs::rename(fresh, path_, error);

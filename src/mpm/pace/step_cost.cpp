@@ -7,8 +7,9 @@ namespace mpm::pace {
 
 namespace {
 
-constexpr double kTimeUnit = 1e-9;              ///< [s] of simulated time
 constexpr std::uint64_t kPlentyOfSteps = 2000;  ///< more make the mean no better
+
+}  // namespace
 
 double part_awake(const Simulation& simulation) {
   const auto particles = static_cast<double>(simulation.particles());
@@ -26,8 +27,6 @@ bool touches(Simulation& simulation) {
   return false;
 }
 
-}  // namespace
-
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -43,7 +42,7 @@ void StepTimer::count() {
 bool StepTimer::after_step() {
   if (!timing_) return stopped();
   count();
-  return last_ - begun_ >= budget_ || steps_ >= kPlentyOfSteps || stopped();
+  return over(last_) || steps_ >= kPlentyOfSteps || stopped();
 }
 
 std::optional<StepCost> StepTimer::time(Simulation& simulation) {
@@ -55,7 +54,7 @@ std::optional<StepCost> StepTimer::time(Simulation& simulation) {
     do {
       simulation.advance();
       count();  // after the last step of a sync period nobody is asked
-    } while (last_ - begun_ < budget_ && steps_ < kPlentyOfSteps && !stopped() &&
+    } while (!over(last_) && steps_ < kPlentyOfSteps && !stopped() &&
              (end <= 0.0 || static_cast<double>(simulation.time()) < end));
   } catch (const StoppedError&) {
     // By after_step() or over_budget().

@@ -17,6 +17,7 @@
 #include "mpm/scene/target_choice.hpp"
 #include "mpm/scene/target_half.hpp"
 #include "mpm/scene/target_record.hpp"
+#include "mpm_ros/run/scene_rehearsal.hpp"
 
 namespace mpm_ros {
 
@@ -29,9 +30,8 @@ using mpm::pace::Target;
 
 constexpr double kFewParticles = 200'000.0;  ///< that a copy which is timed has at most
 constexpr double kShort = 0.12;              ///< [s] of timing each copy
-constexpr double kLong = 0.5;                ///< [s] of timing the coarse one
+constexpr double kLong = 0.6;                ///< [s] of the rehearsal
 constexpr int kMostTries = 5;                ///< candidates that are timed before one is taken as it is
-constexpr double kMostOfARun = 0.5;          ///< part of a run's steps, from which on a kept cost is that of the run
 
 constexpr int kMostAlong = 5;       ///< particles along a cell's edge that a table may have figures for
 constexpr double kManyCells = 1e9;  ///< across a tool, for which there are figures if there are any
@@ -53,8 +53,8 @@ class Timing {
       : costs_(mpm::pace::kept_costs_path()), threads_(threads), isa_(isa), stop_(stop) {}
 
   /// Nothing where the scene cannot be run, or not one step was made.
-  std::optional<Forecast> of(const mpm::Scene& scene, double budget, const std::string& purpose = {}) {
-    const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene) + purpose, isa_, threads_);
+  std::optional<Forecast> of(const mpm::Scene& scene, double budget) {
+    const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), isa_, threads_);
     const std::int64_t now = mpm::pace::wall_time();
     if (const auto kept = costs_.find(key, now))
       return Forecast{kept->cost, kept->particles, kept->threads, scene.definition.time.end, false, false};
@@ -91,6 +91,8 @@ class Chooser {
         own_(mpm::pace::discretisation_of(scene.definition)),
         errors_(mpm::load_force_errors(scene)),
         fitting_(mpm::fitting_cells(scene)),
+        isa_(isa),
+        stop_(stop),
         timing_(threads, isa, stop) {}
 
   Aim aim() {
@@ -177,21 +179,7 @@ class Chooser {
     return best;
   }
 
-  /// What steps cost more, all in all, than at the start: of the coarsest grid with the scene's particles a cell.
-  double rise() {
-    Discretisation coarse = own_;
-    for (const auto& [cell, along] : fitting_) {
-      if (along == own_.along && cell.prod() > coarse.cell.prod()) coarse.cell = cell;
-    }
-    if (particles(coarse) > kFewParticles) return 1.0;
-    const mpm::Scene scene = with(coarse);
-    const auto start = timing_.of(scene, 0.1 * kLong, "start"), all = timing_.of(scene, kLong, "run");
-    if (!start || !all) return 1.0;
-    return std::max(1.0, start->real_time_factor() / all->real_time_factor());
-  }
-
   void calibrate() {
-    rise_ = rise();
     costs_.base = affordable();
     costs_.geometry = geometry_;
     const mpm::Scene scene = with(costs_.base);
@@ -204,6 +192,7 @@ class Chooser {
     costs_.sync = 1e-9 * static_cast<double>(scene.definition.time.sync);
     costs_.step = scene.definition.time.step;
     costs_.wave_time = mpm::wave_step(scene).dt / scene.definition.time.cfl;
+    rehearsal_ = rehearse_scene(scene, *usual, isa_, kLong, stop_);
     const double own = seconds_of(*usual);
     const Discretisation base = costs_.base;
     const mpm::pace::ForceErrors& errors = errors_;
@@ -247,10 +236,11 @@ class Chooser {
     return costs_.sync / std::min(costs_.base.cfl * costs_.wave_time, costs_.step.value_or(costs_.sync));
   }
 
-  double pace_of(const Forecast& forecast) const {
-    const bool whole =
-        forecast.simulated > 0.0 && static_cast<double>(forecast.cost.steps) >= kMostOfARun * forecast.steps();
-    return forecast.real_time_factor() / (whole ? 1.0 : rise_);
+  /// The pace that is expected of the whole run.
+  double pace_of(Forecast forecast) const {
+    if (rehearsal_ && forecast.cost.rehearsed == 0.0 && !forecast.of_run())
+      forecast.cost = mpm::pace::of_whole_run(forecast.cost, *rehearsal_, forecast.particles);
+    return forecast.real_time_factor();
   }
 
   /// Times a candidate. Others on the same grid are expected to differ from the arithmetic as it does; one that cannot
@@ -334,8 +324,10 @@ class Chooser {
   const Discretisation own_;
   const mpm::pace::ForceErrors errors_;
   const std::vector<std::pair<mpm::Vec3, int>> fitting_;
+  const mpm::Isa isa_;
+  const std::function<bool()>& stop_;
   Timing timing_;
-  double rise_ = 1.0;
+  std::optional<mpm::pace::Rehearsal> rehearsal_;
   mpm::pace::StepCosts costs_;
   std::vector<Candidate> candidates_;
   bool left_out_ = false;  ///< of candidates, one that could not be run

@@ -8,6 +8,7 @@
 #include "mpm/pace/kept_costs.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "mpm_ros/run/scene_rehearsal.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
@@ -19,6 +20,9 @@ using mpm::pace::Forecast;
 constexpr std::size_t kMostTimed = 1'000'000;     ///< particles; to build a copy of more takes too long
 constexpr std::uint64_t kMostCompared = 200'000;  ///< the same, for several copies
 constexpr double kComparingBudget = 0.15;         ///< [s] for each of them
+constexpr double kRehearsalOfNode = 0.6;          ///< [s] before a node's run begins
+constexpr double kOfRun = 0.02;                   ///< part of a run's wall time that a rehearsal for --explain takes,
+constexpr double kShortRehearsal = 2.0, kLongRehearsal = 40.0;  ///< within these bounds [s]
 
 std::string timed_text(const Forecast& forecast, std::int64_t ago) {
   return fmt::format("{} step{} timed{}", forecast.cost.steps, forecast.cost.steps == 1 ? "" : "s",
@@ -34,6 +38,14 @@ Forecast forecast_of(const mpm::Scene& scene, const mpm::pace::StepCost& cost, s
   forecast.sleeps = scene.definition.sleep.has_value();
   forecast.tools = !scene.definition.rigid_bodies.empty();
   return forecast;
+}
+
+/// Makes a forecast by the first steps one of the whole run, where what is to come may change their cost.
+void rehearse(const mpm::Scene& scene, mpm::Isa isa, double budget, const std::function<bool()>& stop,
+              Forecast& forecast) {
+  if (!forecast.changes()) return;
+  const auto found = rehearse_scene(scene, forecast, isa, budget, stop);
+  if (found) forecast.cost = mpm::pace::of_whole_run(forecast.cost, *found, forecast.particles);
 }
 
 std::size_t count(const mpm::SimulationDefinition& definition) {
@@ -90,6 +102,7 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
       const auto timed = mpm::pace::time_copy(std::move(built), options.threads, isa, kTimingBudget, options.stop);
       if (!timed) return std::nullopt;
       pace.forecast = *timed;
+      rehearse(scene, isa, kRehearsalOfNode, options.stop, pace.forecast);
     } catch (const mpm::StoppedError&) {
       throw;
     } catch (const mpm::Error&) {
@@ -149,7 +162,9 @@ std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, m
     forecast.threads = before->threads;
     ago = now - before->when;
   } else {
-    kept = costs.keep(key, {*cost, forecast.threads, forecast.particles, now});
+    const double seconds = forecast.wall_seconds() / std::max(cost->awake, 1e-3);
+    rehearse(scene, isa, std::clamp(kOfRun * seconds, kShortRehearsal, kLongRehearsal), stop_overdue, forecast);
+    kept = costs.keep(key, {forecast.cost, forecast.threads, forecast.particles, now});
   }
   std::string text = fmt::format("pace: {}; {}, without outputs{}\n", mpm::pace::forecast_text(forecast),
                                  timed_text(forecast, ago), kept ? ", kept for a day in " + costs.path() : "");

@@ -69,7 +69,7 @@ TEST(SceneMaterials, Soil) {
   const auto sand = std::get<DruckerPragerDefinition>(scene.definition.materials.at(0).law);
   EXPECT_EQ(sand.match, ConeMatch::mohr_coulomb);
   EXPECT_EQ(sand.dilation_limit, 0.1);
-  for (const char* key : {"match", "dilation_limit"}) {
+  for (const char* key : {"match", "dilation_limit", "dilation_rise"}) {
     const auto recorded = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
     EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
   }
@@ -110,7 +110,8 @@ TEST(SceneMaterials, SoilThatSoftens) {
              choice.second == "0.01 m is a plastic shear strain of 0.1 in a band of one cell, 0.1 m wide";
     };
     EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1);
-    for (const char* key : {"residual_friction_angle: 30 deg", "residual_cohesion: 0", "shear_band: 0.1"}) {
+    for (const char* key :
+         {"residual_friction_angle: 30 deg", "residual_cohesion: 0", "dilation_limit: none, shear_band: 0.1"}) {
       EXPECT_NE(refusal(start + ", " + key).find("write softening_slip"), std::string::npos) << key;
     }
     EXPECT_EQ(refusal(start + ", softening_slip: 10 mm, shear_band: 5 cm"),
@@ -118,6 +119,48 @@ TEST(SceneMaterials, SoilThatSoftens) {
     EXPECT_EQ(refusal(start + ", softening_slip: 10 mm, residual_friction_angle: 41 deg"),
               ".residual_friction_angle: residual friction angle is 41 degrees; it must lie from 0 to the friction "
               "angle, 40");
+  }
+}
+
+// The scene's cell is 0.1 m.
+TEST(SceneMaterials, SoilWhoseDilationEndsAtARise) {
+  for (const std::string law : {"drucker_prager", "mohr_coulomb"}) {
+    const std::string still = "density: 1600, law: " + law + ", young: 10 MPa, poisson: 0.3, friction_angle: 40 deg";
+    const std::string start = still + ", dilation_angle: 10 deg";
+    const auto softening = [](const std::string& text) {
+      const Scene scene = scene_of(text);
+      const LawDefinition& definition = scene.definition.materials.at(0).law;
+      const auto* cone = std::get_if<DruckerPragerDefinition>(&definition);
+      return cone ? cone->softening : std::get<MohrCoulombDefinition>(definition).softening;
+    };
+    const auto explained = [](const std::string& text) {
+      for (const auto& [path, choice] : scene_of(text).choices) {
+        if (path == "materials.m.dilation_rise") return choice;
+      }
+      return std::string();
+    };
+    EXPECT_EQ(softening(start).rise, 1e-3);
+    EXPECT_EQ(softening(start).band, 0.1);
+    EXPECT_EQ(softening(start + ", dilation_rise: 4 mm, shear_band: 0.14").rise, 4e-3);
+    EXPECT_EQ(softening(start + ", dilation_rise: 4 mm, shear_band: 0.14").band, 0.14);
+    EXPECT_EQ(softening(start + ", dilation_limit: none, dilation_rise: 4 mm").rise, 4e-3);
+    for (const char* none : {", dilation_rise: none", ", dilation_limit: none", ", softening_slip: 10 mm"}) {
+      EXPECT_TRUE(std::isinf(softening(start + none).rise)) << none;
+      EXPECT_EQ(explained(start + none), "") << none;
+    }
+    EXPECT_EQ(softening(start + ", softening_slip: 10 mm, dilation_limit: 0.05").rise, 1e-3);
+    EXPECT_TRUE(std::isinf(softening(still).rise));
+    EXPECT_EQ(explained(start),
+              "0.001 m: dilation ends when the volume has grown by 0.01 in a band of one cell, 0.1 m wide");
+    EXPECT_EQ(explained(start + ", dilation_rise: 4 mm, shear_band: 0.2"),
+              "0.004 m: dilation ends when the volume has grown by 0.02 in a band 0.2 m wide");
+    EXPECT_EQ(explained(start + ", dilation_rise: 2 cm"),
+              "0.02 m: a cell is finer than a band in the soil, where dilation ends at dilation_limit, 0.1");
+    EXPECT_EQ(refusal(start + ", dilation_rise: 0").rfind(".dilation_rise: '0' is not greater than 0;", 0), 0u);
+    EXPECT_EQ(refusal(start + ", dilation_rise: 4 mm, shear_band: 5 cm"),
+              ".shear_band: 0.05 m is narrower than a cell, 0.1 m, in which the grid resolves a band; leave it out");
+    EXPECT_EQ(refusal(still + ", shear_band: 0.2"),
+              ".shear_band: nothing falls along a shear band: write softening_slip, or dilation_rise, or leave it out");
   }
 }
 

@@ -2,6 +2,8 @@
 // a law is made from it.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -40,15 +42,24 @@ enum class ConeMatch { mohr_coulomb, plane_strain, compression, extension };
 /// loosest packing of most sands there is a fifth.
 constexpr double kDilationLimit = 0.1;
 
-/// How soil loses strength along a shear band, to its critical state (softening.hpp); angles in radians.
+/// How soil loses strength and dilation along a shear band, to its critical state: over displacements of the band,
+/// which are strains of the band as the grid resolves it (softening.hpp); angles in radians.
 struct SoilSoftening {
   double slip = 0.0;            ///< displacement along the band over which strength falls [m], > 0; 0: it does not fall
   double band = 0.0;            ///< width of a band as the grid resolves it, the edge of a cell [m], > 0
   double friction_angle = 0.0;  ///< residual [rad], in [0, peak]
   double cohesion = 0.0;        ///< residual [Pa], in [0, peak]
+  /// Displacement across the band, the thickness that it gains, at which dilation ends [m], > 0; infinite: at none.
+  double rise = std::numeric_limits<double>::infinity();
   bool falls() const { return slip > 0.0; }
   double strain() const { return slip / band; }  ///< plastic shear strain over which strength falls
+  /// Volume gained over initial volume at which dilation ends: where the band has risen, or at `limit`, which the state
+  /// of the soil sets, if that is less; so it is on a grid finer than the band in the soil.
+  double dilation_limit(double limit) const { return std::min(limit, rise / band); }
 };
+
+/// A band of sand is some 10 to 20 grains wide, 10 mm, and gains a tenth (kDilationLimit). [m]
+constexpr double kDilationRise = 1e-3;
 
 /// Drucker-Prager soil; angles in radians.
 struct DruckerPragerDefinition {
@@ -58,7 +69,7 @@ struct DruckerPragerDefinition {
   double cohesion = 0.0;         ///< [Pa], >= 0
   double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; negative: the cone's apex
   ConeMatch match = ConeMatch::mohr_coulomb;
-  double dilation_limit = kDilationLimit;  ///< volume gained over initial volume at which dilation ends, > 0
+  double dilation_limit = kDilationLimit;  ///< most volume gained, over initial volume, at which dilation ends, > 0
   SoilSoftening softening = {};
 };
 

@@ -25,19 +25,21 @@ void check(const MaterialDefinition& material, const Elasticity& elasticity) {
           fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.5, both excluded", poisson));
 }
 
-/// Checks how the strength of a soil falls. Strength that falls faster with strain than the soil unloads would be lost
-/// at once whatever the slip: c cos(phi) / G is the elastic shear strain that the loss of cohesion sets free. (What the
-/// loss of friction sets free depends on the pressure, which a material does not know.)
+/// Checks how strength and dilation of a soil fall. Strength that falls faster with strain than the soil unloads would
+/// be lost at once whatever the slip: c cos(phi) / G is the elastic shear strain that the loss of cohesion sets free.
+/// (What the loss of friction sets free depends on the pressure, which a material does not know.)
 template <class SoilDefinition>
 void check_softening(const MaterialDefinition& material, const SoilDefinition& law) {
   const SoilSoftening& fall = law.softening;
   require(fall.slip >= 0.0 && std::isfinite(fall.slip), material,
           fmt::format("softening slip is {:g} m; it must be positive and finite", fall.slip));
-  if (!fall.falls()) return;
+  require(fall.rise > 0.0, material, fmt::format("dilation rise is {:g} m; it must be positive", fall.rise));
+  if (!fall.falls() && std::isinf(fall.rise)) return;
   require(fall.band > 0.0 && std::isfinite(fall.band), material,
-          fmt::format("shear band is {:g} m; strength that falls over a slip needs the width of a shear band as the "
-                      "grid resolves it: write the edge of a cell",
+          fmt::format("shear band is {:g} m; strength that falls over a slip and dilation that ends at a rise need the "
+                      "width of a shear band as the grid resolves it: write the edge of a cell",
                       fall.band));
+  if (!fall.falls()) return;
   require(fall.friction_angle >= 0.0 && fall.friction_angle <= law.friction_angle, material,
           fmt::format("residual friction angle is {:g} degrees; it must lie from 0 to the friction angle, {:g}",
                       fall.friction_angle / kDegree, law.friction_angle / kDegree));

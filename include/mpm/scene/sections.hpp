@@ -28,6 +28,8 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene);
 void read_damping(const Value& value, Scene& scene);
 /// `materials`
 void read_materials(const Map& root, Scene& scene);
+/// The constants of a material whose `law` is norsand.
+LawDefinition read_norsand(const Map& map, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
 /// The `region` of a load or condition.

@@ -13,6 +13,7 @@
 #include "material_paths.hpp"
 #include "mpm/material/initial_state.hpp"
 #include "mpm/material/path_driver.hpp"
+#include "mpm/math/principal.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 
@@ -221,8 +222,9 @@ TEST(NorSand, LooseSandLiquefies) {
   }
 }
 
-// In plane strain the critical friction angle is that of triaxial compression: sin(phi) = 3 M / (6 + M).
-TEST(NorSand, HasOneCriticalFrictionAngle) {
+// The critical state of plane strain, without strain along y, has no deviator along y: half of s_1 - s_3 is M(theta) p
+// / 3^(1/2). The source's M(theta) of that state is M - M^2 / (3 + M) cos(45 deg), 0.5 %.
+TEST(NorSand, IsStrongerInPlaneStrain) {
   PathDriver driver({"sand", 1600.0, erksak(0.74)});
   driver.run(pressing(100e3, 50));
   Leg leg = compression(100e3, 1.0, 4000);
@@ -230,7 +232,10 @@ TEST(NorSand, HasOneCriticalFrictionAngle) {
   leg.target[kYy] = 0.0;
   driver.run(leg);
   const Symmetric3<double> s = driver.point().cauchy();
-  EXPECT_NEAR((s.zz - s.xx) / (s.zz + s.xx), 3.0 * kSlope / (6.0 + kSlope), 0.004);
+  const double source = kSlope - kSlope * kSlope / (3.0 + kSlope) * std::sqrt(0.5);
+  EXPECT_NEAR(0.5 * (s.xx - s.zz), source / std::sqrt(3.0) * pressure_of(driver.point()),
+              0.005 * pressure_of(driver.point()));
+  EXPECT_NEAR(s.yy, 0.5 * (s.xx + s.zz), 0.01 * std::abs(s.zz));
 }
 
 // A path of compression, shear and unloading: the error falls in proportion to the step (psi and p / p_i are those
@@ -261,11 +266,10 @@ double yield_ratio(const NorSandDefinition& d, const MaterialPoint& point, doubl
   const double dilation = std::min(std::max(chi * psi, -(2.2 - d.slope) / (1.0 - d.coupling)), 0.6 * d.slope);
   const double slope = d.slope - d.coupling * std::abs(dilation);
   const double ratio = std::min(slope * (1.0 + std::log(image_of(point) / raised)), slope + std::max(-dilation, 0.0));
-  // Mohr-Coulomb: (s1 - s3) + (s1 + s3) sin(phi) of the deviator is the same at every Lode angle.
   const Principal<double> axes = principal(deviator);
-  const double sine = 3.0 * d.slope / (6.0 + d.slope), top = axes.largest(), bottom = axes.smallest();
-  const double measure = (top - bottom) + (top + bottom) * sine;
-  return ratio * (1.0 - sine / 3.0) * paths::mises(s) / measure;
+  const double compression = -13.5 * axes.value[0] * axes.value[1] * axes.value[2] / std::pow(paths::mises(s), 3.0);
+  const double a4 = std::pow(3.0 / (3.0 + d.slope), 4.0);
+  return ratio * std::pow(2.0 * a4 / (1.0 + a4 - (1.0 - a4) * compression), 0.25);
 }
 
 // Steps of any size from random states end on the surface, or inside it, and nothing is lost or not finite.

@@ -10,9 +10,11 @@
 //   hardening    d ln p_i = H (p / p_i)^2 (exp(-chi_i psi / M_i) - p_i / p) d eps_q,  H = H_0 - H_psi psi
 //   elastic      G = G_100 (p / 100 kPa)^n, K by Poisson's ratio
 //
-// M, M_i, D and H are times M(theta) / M, with Mohr-Coulomb's shape of the critical friction angle. In all of this p is
-// p + p_r, except in q / p, so that sand without pressure has a stiffness and no cohesion: `p_r`, the least pressure,
-// must be small beside the pressures that matter.
+// M, M_i, D and H are times M(theta) / M = (2 a^4 / (1 + a^4 - (1 - a^4) S))^(1/4), a = 3 / (3 + M), S = 1 in triaxial
+// compression and -1 in extension: Mohr-Coulomb's value in both, and between them within 3 % of the source's form,
+// which is the average of Mohr-Coulomb and Matsuoka-Nakai. In all of this p is p + p_r, except in q / p, so that sand
+// without pressure has a stiffness and no cohesion: `p_r`, the least pressure, must be small beside the pressures that
+// matter.
 //
 // Chosen over hypoplasticity and over bounding surfaces with fabric: it has a closed surface, so that sand is compacted
 // by pressure too and tension is cut where it is by other soil; every constant is read from drained triaxial tests and
@@ -35,7 +37,8 @@
 // loses energy around closed paths, as in Cam clay with Poisson's ratio; chi_i psi is bounded (kMostRatio, kLoosest).
 // Source: M. G. Jefferies (1993), Geotechnique 43, 91-103; M. Jefferies, K. Been (2016), Soil liquefaction: a critical
 // state approach, 2nd ed., 3.6 and table 3.1; implicit: R. I. Borja, J. E. Andrade (2006), Comput. Methods Appl. Mech.
-// Eng. 195, 5115-5140; curved critical line: X. S. Li, Y. Wang (1998), J. Geotech. Geoenviron. Eng. 124, 1215-1217.
+// Eng. 195, 5115-5140; curved critical line: X. S. Li, Y. Wang (1998), J. Geotech. Geoenviron. Eng. 124, 1215-1217;
+// M(theta): D. Sheng, S. W. Sloan, H. S. Yu (2000), Comput. Mech. 26, 185-196.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +47,6 @@
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/returned_work.hpp"
-#include "mpm/math/principal.hpp"
 
 namespace mpm {
 
@@ -174,9 +176,8 @@ class NorSand : public LawTraits {
   template <class T, class Symmetric>
   T lode_factor(const Symmetric& deviator, T j2) const {
     const T scale = T(kRoot3) / sqrt(max(j2, T(std::numeric_limits<float>::min())));
-    const auto extremes = half_extremes(scale_shift(deviator, scale, T(0)));
-    const T measure = T(1.0 + sine_) * extremes.first + T(1.0 - sine_) * extremes.second;
-    return min(T(1.5 - 0.5 * sine_) / max(measure, T(0.5)), T(1));
+    const T compression = T(-0.5) * determinant(scale_shift(deviator, scale, T(0)));
+    return T(1) / sqrt(sqrt(T(lode_mean_) - T(lode_half_) * max(min(compression, T(1)), T(-1))));
   }
 
   /// Mises stress, pressure and image pressure [Pa].
@@ -247,17 +248,18 @@ class NorSand : public LawTraits {
   double density_;
   double void_ratio_;
   double gamma_, lambda_, curve_;  ///< the critical line; the last is xi, or 0 for the logarithm
-  double slope_, sine_;            ///< M, and the sine of its friction angle
+  double slope_;                   ///< M
   double coupling_, chi_;          ///< N, chi_i
   double densest_, loosest_;       ///< bounds of -chi_i psi and of chi_i psi
   double hardening_, hardening_of_state_;
   double exponent_, stiffness_;  ///< K = stiffness (p + p_r)^exponent [Pa]
   double shear_over_bulk_;
-  double least_, least_root_;  ///< p_r [Pa], and its power 1 - n
-  double spring_;              ///< (1 - n) stiffness
-  double least_lode_;          ///< smallest M(theta) / M
-  double ratio_;               ///< overconsolidation ratio
-  double flow_;                ///< largest contribution of plastic flow to rho c^2, over K
+  double least_, least_root_;     ///< p_r [Pa], and its power 1 - n
+  double spring_;                 ///< (1 - n) stiffness
+  double least_lode_;             ///< a, smallest M(theta) / M
+  double lode_mean_, lode_half_;  ///< (1 + a^4) / 2 a^4 and (1 - a^4) / 2 a^4
+  double ratio_;                  ///< overconsolidation ratio
+  double flow_;                   ///< largest contribution of plastic flow to rho c^2, over K
 };
 
 }  // namespace mpm

@@ -6,10 +6,10 @@
 namespace mpm {
 namespace {
 
-constexpr double kReference = 1e5;   ///< [Pa]
-constexpr double kMostRatio = 2.2;   ///< q / p of the densest sand: a friction angle of 54 degrees
-constexpr double kLoosest = 0.6;     ///< largest chi_i psi over M: looser sand would not harden under pressure alone
-constexpr double kRoundOff = 1e-12;  ///< by which the initial stress is kept inside the surface
+constexpr double kReference = 1e5;  ///< [Pa]
+constexpr double kMostRatio = 2.2;  ///< q / p of the densest sand: a friction angle of 54 degrees
+constexpr double kLoosest = 0.6;    ///< largest chi_i psi over M: looser sand would not harden under pressure alone
+constexpr double kInside = 1e-12;   ///< by which the initial stress is kept inside the surface
 
 }  // namespace
 
@@ -20,7 +20,6 @@ NorSand::NorSand(const NorSandDefinition& d, double density)
       lambda_(d.lambda),
       curve_(d.critical_exponent),
       slope_(d.slope),
-      sine_(3.0 * d.slope / (6.0 + d.slope)),
       coupling_(d.coupling),
       chi_(d.image_dilatancy()),
       densest_(std::max(kMostRatio - d.slope, 0.0) / (1.0 - d.coupling)),
@@ -33,7 +32,9 @@ NorSand::NorSand(const NorSandDefinition& d, double density)
       least_(d.least_pressure),
       least_root_(power(d.least_pressure, 1.0 - d.shear_exponent)),
       spring_((1.0 - d.shear_exponent) * stiffness_),
-      least_lode_((1.5 - 0.5 * sine_) / std::sqrt(3.0 + sine_ * sine_)),
+      least_lode_(3.0 / (3.0 + d.slope)),
+      lode_mean_(0.5 * std::pow(least_lode_, -4.0) + 0.5),
+      lode_half_(0.5 * std::pow(least_lode_, -4.0) - 0.5),
       ratio_(d.overconsolidation),
       flow_(largest_flow_stiffness()) {}
 
@@ -61,25 +62,29 @@ double NorSand::initial_hardening(const Symmetric3<double>& cauchy) const {
   for (int i = 0; i < kSteps; ++i) {
     image = (pressure + least_) * std::exp(q_over_p / surface(void_ratio_, image).slope - 1.0);
   }
-  return std::log(ratio_ * image / least_) + kRoundOff;
+  return std::log(ratio_ * image / least_) + kInside;
 }
 
-// Largest flow_stiffness() of all stresses, for K = 1. In principal axes flow is m = 3 s / 2 q - D / 3. The surface is
-// B = p y(p) with B = ((s1 - s3) + sin(phi) (s1 + s3)) 3 / (3 - sin(phi)), which is q in triaxial compression; its
-// slope over p is y - M_i, or y at the cap. Stress ratios, states and Lode angles are sampled, with triaxial
-// compression and extension among them. A rise or fall of p_i by flow adds little to h, p beside G; a tenth is left for
-// the fall.
+// Largest flow_stiffness() of all stresses, for K = 1. In principal axes the flow is m = 3 s / 2 q - D / 3. The surface
+// is B = p y(p) with B = q M / M(theta); its slope over p is y - M_i, or y at the cap. Stress ratios, states and Lode
+// angles are sampled, with triaxial compression and extension among them. A rise or fall of p_i by flow adds little to
+// h, p beside G; a tenth is left for the fall.
 double NorSand::largest_flow_stiffness() const {
   constexpr int kAngles = 12, kStates = 2, kRatios = 4;
   constexpr double kFall = 1.1;
-  const double third = 2.0 / 3.0 * kPi, shear = shear_over_bulk_, c = 3.0 / (3.0 - sine_);
+  const double third = 2.0 / 3.0 * kPi, shear = shear_over_bulk_;
   double most = 0.0;
   for (int a = 0; a <= kAngles; ++a) {
     const double angle = 0.5 * third * a / kAngles;
-    PrincipalValues s;  // over q, in descending order
-    for (int i = 0; i < 3; ++i) s[i] = 2.0 / 3.0 * std::cos(angle + (i == 0 ? 0.0 : i == 1 ? -third : third));
-    const double lode = 1.0 / (c * ((s[0] - s[2]) + sine_ * (s[0] + s[2])));
-    const PrincipalValues normal{c * (1.0 + sine_ / 3.0), -2.0 / 3.0 * sine_ * c, c * (sine_ / 3.0 - 1.0)};
+    PrincipalValues s;  // over q
+    for (int i = 0; i < 3; ++i) s[i] = 2.0 / 3.0 * std::cos(angle - i * third);
+    const double product = s[0] * s[1] * s[2], squared = lode_mean_ + 13.5 * lode_half_ * product;
+    const double lode = 1.0 / std::sqrt(std::sqrt(squared));
+    PrincipalValues normal;  // of B over s: 1 / lode = squared^(1/4)
+    for (int i = 0; i < 3; ++i) {
+      const double other = s[(i + 1) % 3] * s[(i + 2) % 3] + 1.0 / 9.0;  // its mean is -1/9
+      normal[i] = 1.5 * s[i] / lode + 0.25 * 13.5 * lode_half_ * std::pow(lode, 3.0) * (other - 4.5 * product * s[i]);
+    }
     for (int state = 0; state <= kStates; ++state) {
       const double dilation = densest_ * state / kStates, slope = slope_ - coupling_ * dilation;
       for (int r = 0; r <= kRatios + 1; ++r) {

@@ -1,7 +1,8 @@
 // NorSand on single elements, against the equations of the source, trends of triaxial tests that were published beside
 // them or by others, and closed forms. Erksak 330/0.7 sand: Gamma, lambda, M, N, chi, H and the elastic constants of M.
 // Jefferies, K. Been (2016), Soil liquefaction, 2nd ed., 3.7, best fit of eleven drained triaxial tests; its densest
-// and loosest void ratio 0.521 and 0.753, K. Been, M. G. Jefferies (1985), Geotechnique 35, 99-112. The file takes 3 s.
+// and loosest void ratio 0.521 and 0.753, K. Been, M. G. Jefferies (1985), Geotechnique 35, 99-112. The file takes 0.4
+// s.
 #include "mpm/material/norsand.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,6 @@
 #include "mpm/material/initial_state.hpp"
 #include "mpm/material/path_driver.hpp"
 #include "mpm/math/principal.hpp"
-#include "mpm/scene/scene.hpp"
-#include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace norsand_test {
@@ -367,31 +366,6 @@ TEST(NorSand, StartsOnItsSurface) {
     const InitialStates states({"sand", 1600.0, d}, GeometryKind::solid);
     EXPECT_TRUE(states.carries(stress));
     EXPECT_FALSE(states.carries({-1e3, -1e3, -8e3, 0, 0, 0}));
-  }
-}
-
-// A bed 0.4 m deep, geostatic: it stays at rest under its weight, with the sides at 1 - sin(phi).
-TEST(NorSand, RestsUnderItsWeight) {
-  const Scene scene = parse_scene(
-      "geometry: plane_strain\nthickness: 1\ngravity: [0, -9.81]\n"
-      "grid: {cell: 0.05, min: [0, 0], max: [0.4, 0.6]}\ntime: {end: 0.1, sync: 10 ms}\n"
-      "materials:\n  - {name: sand, density: 1550, law: norsand, gamma: 0.816, lambda: 0.0135, M: 1.26, N: 0.35, "
-      "chi: 3.5, H: 103, H_psi: 980, shear_modulus: 50 MPa, relative_density: 0.2, e_max: 0.753, e_min: 0.521}\n"
-      "bodies:\n  - {name: bed, material: sand, initial: geostatic, shape: {box: {min: [0, 0], max: [0.4, 0.4]}}}\n"
-      "boundaries: {x_min: slip, x_max: slip, z_min: slip}\n",
-      "bed.yaml", {});
-  Simulation simulation(build(scene), {1});
-  while (simulation.time() < 100'000'000) simulation.advance();
-  std::vector<double> z, v, szz, sxx;
-  simulation.particle_field("z", z);
-  simulation.particle_field("vz", v);
-  simulation.particle_field("szz", szz);
-  simulation.particle_field("sxx", sxx);
-  const double weight = 1550.0 * 9.81, ratio = 1.0 - 3.0 * kSlope / (6.0 + kSlope);
-  for (std::size_t p = 0; p < z.size(); ++p) {
-    EXPECT_NEAR(szz[p], -weight * (0.4 - z[p]), 0.01 * weight * 0.4) << z[p];
-    EXPECT_NEAR(sxx[p], ratio * szz[p], 0.02 * weight * 0.4) << z[p];
-    EXPECT_LT(std::abs(v[p]), 1e-3) << z[p];
   }
 }
 

@@ -1,4 +1,5 @@
-// NorSand in scenes: a bed at rest, a disc that meets more force the deeper it is, and sand that is thrown. 7 s in all, on two threads.
+// NorSand in scenes: a bed at rest, a disc that meets more force the deeper it is, and sand that is thrown. 7 s in all,
+// on two threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>

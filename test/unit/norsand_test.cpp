@@ -200,8 +200,8 @@ TEST(NorSand, PeaksAsSandDoes) {
 }
 
 // Sheared at constant volume, loose sand liquefies and dense sand stiffens: both end at the critical pressure of their
-// void ratio, exp((Gamma - e) / lambda) kPa, q = M p. The loose sand passes a peak first, as in the tests of J. Been's
-// and Jefferies' fig. 6.1.
+// void ratio, exp((Gamma - e) / lambda) kPa, q = M p. The loose sand passes a peak first, as in the tests of Jefferies
+// and Been, fig. 6.1.
 TEST(NorSand, LooseSandLiquefies) {
   for (const double voids : {0.775, 0.79, 0.76}) {
     PathDriver driver({"sand", 1600.0, erksak(voids)});

@@ -105,7 +105,7 @@ class NorSand : public LawTraits {
     tau = scale_shift(deviator, to_tau, -pressure * to_tau);
   }
 
-  /// Of volume: the integral of p dp / K; of shape: q^2 / 6 G at the present pressure.
+  /// Energy of volume, the integral of p dp / K, and of shape, q^2 / 6 G at the present pressure.
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
     const double mean = trace(tau) / 3.0 * density_ / j, raised = std::max(-mean, 0.0) + least_;
@@ -113,8 +113,8 @@ class NorSand : public LawTraits {
     return (volume_energy(raised) + 0.5 * j2 / (shear_over_bulk_ * bulk_at(raised))) * j / density_;
   }
 
-  /// Of the elastic response, and what flow that is not associated adds at most (soil_wave_speed in opening.hpp). Loose
-  /// sand without pressure carries no wave until it has closed.
+  /// Speed of the elastic response, with what flow that is not associated adds at most (soil_wave_speed in
+  /// opening.hpp). Loose sand without pressure carries no wave until it has closed.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     const T mean = T(1.0 / 3.0) * trace(tau) * T(density_) / j, pressure = max(-mean, T(0));

@@ -264,6 +264,60 @@ TEST(SceneMaterials, Clay) {
             ".poisson: Poisson's ratio is 0.5; it must lie between -1 and 0.5, both excluded");
 }
 
+TEST(SceneMaterials, Sand) {
+  const std::string start =
+      "density: 1500, law: norsand, gamma: 0.816, lambda: 0.0135, M: 1.26, N: 0.35, chi: 3.5, H: 103, "
+      "shear_modulus: 50 MPa";
+  const Scene scene = scene_of(start + ", void_ratio: 0.7");
+  const auto sand = std::get<NorSandDefinition>(scene.definition.materials.at(0).law);
+  EXPECT_EQ(sand.gamma, 0.816);
+  EXPECT_EQ(sand.lambda, 0.0135);
+  EXPECT_EQ(sand.critical_exponent, 0.0);
+  EXPECT_EQ(sand.slope, 1.26);
+  EXPECT_EQ(sand.coupling, 0.35);
+  EXPECT_EQ(sand.dilatancy, 3.5);
+  EXPECT_EQ(sand.hardening, 103.0);
+  EXPECT_EQ(sand.hardening_of_state, 0.0);
+  EXPECT_EQ(sand.shear_modulus, 50e6);
+  EXPECT_EQ(sand.shear_exponent, 0.5);
+  EXPECT_EQ(sand.poisson, 0.2);
+  EXPECT_EQ(sand.void_ratio, 0.7);
+  EXPECT_EQ(sand.overconsolidation, 1.0);
+  EXPECT_EQ(sand.least_pressure, 100.0);
+  for (const std::string key : {"shear_exponent", "poisson", "overconsolidation_ratio", "least_pressure"}) {
+    const auto recorded = [&](const auto& choice) { return choice.first == "materials.m." + key; };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
+  }
+  const auto other =
+      law_of<NorSandDefinition>(start +
+                                ", relative_density: 0.25, e_max: 0.8, e_min: 0.4, critical_exponent: 0.7, H_psi: 980, "
+                                "shear_exponent: 0.6, poisson: 0.15, overconsolidation_ratio: 2, least_pressure: 50");
+  EXPECT_NEAR(other.void_ratio, 0.7, 1e-15);
+  EXPECT_EQ(other.critical_exponent, 0.7);
+  EXPECT_EQ(other.hardening_of_state, 980.0);
+  EXPECT_EQ(other.shear_exponent, 0.6);
+  EXPECT_EQ(other.poisson, 0.15);
+  EXPECT_EQ(other.overconsolidation, 2.0);
+  EXPECT_EQ(other.least_pressure, 50.0);
+  EXPECT_EQ(refusal(start), ": write exactly one of void_ratio and relative_density");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, e_max: 0.8"),
+            ".e_max: goes with relative_density; leave it out beside void_ratio");
+  EXPECT_EQ(refusal(start + ", relative_density: 0.5, e_max: 0.8"), ": the key 'e_min' is missing; add it");
+  EXPECT_EQ(refusal(start + ", relative_density: 0.5, e_max: 0.4, e_min: 0.8"),
+            ".e_min: 0.8 is not below e_max, 0.4: sand is densest at the least void ratio");
+  EXPECT_EQ(refusal(start + ", relative_density: 1.5, e_max: 0.8, e_min: 0.4"),
+            ".relative_density: relative density is 1.5; it must lie from 0, at e_max, to 1, at e_min");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0"), ".void_ratio: void ratio is 0; it must be positive and finite");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, poisson: 0.45"),
+            ".poisson: Poisson's ratio is 0.45; it must lie between -1 and 0.4, both excluded");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, shear_exponent: 1"),
+            ".shear_exponent: shear exponent is 1; it must lie from 0 to 0.9");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, H_psi: -5"), ".H_psi: H psi is -5; it must be finite and not negative");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, overconsolidation_ratio: 0.5"),
+            ".overconsolidation_ratio: overconsolidation ratio is 0.5; it must be finite and at least 1");
+  EXPECT_NE(refusal(start + ", void_ratio: 0.7, kappa: 0.1").find("kappa"), std::string::npos);
+}
+
 TEST(SceneMaterials, Fluid) {
   const std::string start = "density: 1000, law: newtonian_fluid";
   const Scene scene = scene_of(start + ", sound_speed: 20 m/s, viscosity: 1e-3 Pa s");

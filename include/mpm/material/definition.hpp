@@ -110,6 +110,29 @@ struct CamClayDefinition {
   double shear_over_bulk() const { return 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson); }
 };
 
+/// NorSand: sand that becomes stronger, stiffer and more dilatant with density, and less dilatant with pressure.
+struct NorSandDefinition {
+  double gamma = 0.0;               ///< void ratio of the critical state at 1 kPa; with an exponent, without pressure
+  double lambda = 0.0;              ///< its fall over ln p, or over (p / 100 kPa)^exponent, > 0
+  double critical_exponent = 0.0;   ///< xi, in (0, 1]; 0: the logarithm
+  double slope = 0.0;               ///< M in triaxial compression, > 0
+  double coupling = 0.0;            ///< N, in [0, 1)
+  double dilatancy = 0.0;           ///< chi: largest dilation over the state parameter at the peak, > 0
+  double hardening = 0.0;           ///< H_0, > 0
+  double hardening_of_state = 0.0;  ///< H_psi, >= 0: H = H_0 - H_psi psi, at least half of H_0
+  double shear_modulus = 0.0;       ///< G at 100 kPa [Pa], > 0
+  double shear_exponent = 0.5;      ///< n of G over pressure, in [0, 0.9]
+  double poisson = 0.2;             ///< in (-1, 0.5)
+  double void_ratio = 0.0;          ///< at the start, > 0
+  double overconsolidation = 1.0;   ///< size of the surface over that through the initial stress, >= 1
+  double least_pressure = 100.0;    ///< p_r, below which the sand softens no more [Pa], > 0
+  double shear_over_bulk() const { return 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson); }
+  /// Slope of the critical line over ln p, at 100 kPa.
+  double critical_slope() const { return critical_exponent > 0.0 ? lambda * critical_exponent : lambda; }
+  /// chi_i: chi over the state parameter at the image pressure.
+  double image_dilatancy() const { return dilatancy / (1.0 - dilatancy * critical_slope() / slope); }
+};
+
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain
 /// a.
 struct J2PlasticityDefinition {
@@ -173,7 +196,7 @@ struct StandardLinearSolidDefinition {
 using LawDefinition =
     std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
                  J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition,
-                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition>;
+                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition, NorSandDefinition>;
 
 struct MaterialDefinition {
   std::string name;

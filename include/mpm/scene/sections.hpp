@@ -32,6 +32,8 @@ void read_materials(const Map& root, Scene& scene);
 Elasticity read_elasticity(const Map& map);
 LawDefinition read_drucker_prager(const Map& map, Scene& scene);
 LawDefinition read_mohr_coulomb(const Map& map, Scene& scene);
+/// The constants of a material whose `law` is norsand.
+LawDefinition read_norsand(const Map& map, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
 /// The `region` of a load or condition.

@@ -18,7 +18,7 @@ namespace edge_cover_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kCell = 0.1;
-constexpr double kSeen = 1e-5;     ///< [m/s]: a millionth of a node taken for all, of velocities 10 m/s apart
+constexpr double kSeen = 1e-5;    ///< [m/s]: a millionth of a node taken for all, of velocities 10 m/s apart
 constexpr double kFurther = 0.2;  ///< cells by which an edge of a tool without sides acts further out than it lies
 
 /// A field whose nodes all carry 1 kg, from 0 to 2 m along each axis.

@@ -10,9 +10,9 @@
 
 namespace mpm_ros {
 
-/// Rehearses a scene whose first steps were timed, within a budget of wall time [s]: on cells four times as wide at most,
-/// and, where that was quicker than it had to be, once more on finer ones, since blocks of coarse cells stay awake round
-/// a tool that hardly moves. Returns nothing for a scene without an end or one that cannot be made coarser.
+/// Rehearses a scene whose first steps were timed, within a budget of wall time [s]: on cells four times as wide at
+/// most, and, where that was quicker than it had to be, once more on finer ones, since blocks of coarse cells stay
+/// awake round a tool that hardly moves. Returns nothing for a scene without an end or one that cannot be made coarser.
 /// @throws mpm::StoppedError
 std::optional<mpm::pace::Rehearsal> rehearse_scene(const mpm::Scene& scene, const mpm::pace::Forecast& timed,
                                                    mpm::Isa isa, double budget, const std::function<bool()>& stop);

@@ -29,9 +29,14 @@ Fault transfer_fault(const MethodDefinition& method) {
   const Transfer& transfer = method.transfer;
   switch (transfer.kind) {
     case TransferKind::flip:
-      if (transfer.flip >= 0.0 && transfer.flip <= 1.0) return {};
-      return MethodFault{"transfer.flip",
-                         fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
+      if (!(transfer.flip >= 0.0 && transfer.flip <= 1.0)) {
+        return MethodFault{"transfer.flip",
+                           fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
+      }
+      if (transfer.pic_order == 1 || transfer.pic_order == 2) return {};
+      return MethodFault{"transfer.pic_order",
+                         fmt::format("order {} is not possible beside a fraction; write 1 or 2, or {{xpic: {}}}",
+                                     transfer.pic_order, transfer.pic_order)};
     case TransferKind::xpic:
     case TransferKind::fmpm: {
       if (transfer.order >= 1 && transfer.order <= kMostOrder) return {};
@@ -111,6 +116,10 @@ Fault pic_fault(const MethodDefinition& method) {
   if (method.transfer.kind != TransferKind::flip) {
     return MethodFault{"damping.pic", fmt::format("transfer {} has no part of PIC to change; use transfer flip",
                                                   kTransferNames[static_cast<int>(method.transfer.kind)])};
+  }
+  if (method.transfer.pic_order != 1) {
+    return MethodFault{"damping.pic",
+                       "this part of PIC is of order 1; leave transfer.pic_order out, or write the fraction there"};
   }
   if (method.transfer.flip != 1.0) {
     return MethodFault{"damping.pic",

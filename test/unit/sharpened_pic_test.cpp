@@ -67,7 +67,7 @@ const char* const kSlip = "{x_min: slip, x_max: slip, z_min: slip, z_max: slip}"
 const Wave kWaves[] = {
     {kSlip, "0", "1e-6*cos(3.14159265358979*2*x)", 2, 0},  // shear along walls, which are mirrors
     {kSlip, "1e-6*sin(3.14159265358979*3*x)", "0", 3, 0},  // pressure between them
-    {"{x_min: periodic, x_max: periodic, z_min: slip, z_max: slip}", "0", "1e-6*sin(3.14159265358979*2*x)", 2, 0},
+    {"{x: periodic, z_min: slip, z_max: slip}", "0", "1e-6*sin(3.14159265358979*2*x)", 2, 0},
     {kSlip, "1e-6*sin(3.14159265358979*2*x)*cos(3.14159265358979*2*z)", "0", 2, 2},  // oblique
 };
 
@@ -100,12 +100,12 @@ TEST(SharpenedPic, LeavesLongWavesInSplines) {
 }
 
 constexpr char kBlobs[] =
-    "geometry: plane_strain\ngrid: {cell: 0.1, min: [0, 0], max: [2, 1]}\ntime: {end: 1, sync: 5 ms}\n"
+    "geometry: plane_strain\ngrid: {cell: 0.1, min: [-1, -1], max: [3, 2]}\ntime: {end: 1, sync: 5 ms}\n"
     "materials: [{name: rubber, density: 1000, law: neo_hookean, young: 1e5, poisson: 0.3}]\n"
     "bodies:\n"
-    "  - {name: left, material: rubber, initial: {velocity: [1, '3*(x-0.5)']}, shape: {sphere: {center: [0.5, 0.5], "
+    "  - {name: left, material: rubber, initial: {velocity: [1, '1.5*(x-0.5)']}, shape: {sphere: {center: [0.5, 0.5], "
     "radius: 0.27}}}\n"
-    "  - {name: right, material: rubber, initial: {velocity: [-1, '2*(x-1.2)']}, shape: {sphere: {center: [1.23, "
+    "  - {name: right, material: rubber, initial: {velocity: [-1, 'x-1.2']}, shape: {sphere: {center: [1.23, "
     "0.45], "
     "radius: 0.33}}}\n";
 

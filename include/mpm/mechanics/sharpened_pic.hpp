@@ -10,9 +10,13 @@
 //   dv_i = -(1 - flip) c sum_j min(1, m_j/m_i) (v_j - v_i),   j the neighbours along the axes,
 //
 // so a wave that lost (1 - flip) c l of its amplitude in a step loses (1 - flip) (c l)^2, l = 2 (1 - cos k h). The sum
-// of m_i dv_i is zero, and conditions act on it as on any other force. At a mirror a node has the half of its mass, and
-// the neighbour beyond it is the one before it. Weak: across the diagonals of a cell the product of two smoothings is
-// left out; where particles have moved together or apart, c is that of those at rest.
+// of m_i dv_i is zero. It is an increment as those of XPIC are: conditions hold the velocities that it is found from,
+// and take from it what they hold (step/stage.hpp). At a mirror a node has the half of its mass, and the neighbour
+// beyond it is the one before it.
+//
+// Weak: across the diagonals of a cell the product of two smoothings is left out; where particles have moved together
+// or apart, c is that of those at rest; nodes on the two sides of a crack are neighbours as any others.
+// Source: derived for this project from XPIC, Hammerquist & Nairn (2017); doc/method_keys.md has what it does.
 #pragma once
 
 #include <vector>
@@ -20,29 +24,22 @@
 #include "mpm/ranks/halo.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/chunk_sums.hpp"
-#include "mpm/step/stage.hpp"
 
 namespace mpm {
 
 /// c above. `particles_per_direction`: along an edge of a cell.
 double smoothing_of(ShapeKind shape, int particles_per_direction);
 
-class SharpenedPic final : public Stage {
+class SharpenedPic {
  public:
   /// `part`: (1 - flip) c. `fields` and `halo`, which is null on one process, outlive it.
-  SharpenedPic(double part, Fields& fields, int threads, Halo* halo = nullptr);
+  SharpenedPic(double part, Fields& fields, int threads, Halo* halo);
 
-  std::string name() const override { return "sharpened_pic"; }
-  Ranks ranks(Hook) const override { return {Rank::transfer}; }
-
-  void momentum_gathered(StepContext& context) override;
-  void momentum_updated(StepContext& context) override;
-  void grid_advanced(StepContext& context) override;
-  /// Gives back some of what the transfer dissipates.
-  void energies(EnergyReport& report) const override {
-    report.add("transfer", NamedEnergy::Kind::dissipated, -energy_);
-  }
-  void serialise(StateArchive& archive) override { archive.sum("energy", energy_); }
+  /// Replaces Grid::increment, v of the step's start as conditions hold it, by dv [m/s].
+  void find();
+  /// Adds Grid::increment to Grid::velocity and what it is in a time to the acceleration, Grid::force. Returns the work
+  /// done so [J], on this rank.
+  double add(double dt);
 
  private:
   /// The work on a velocity field.
@@ -63,7 +60,6 @@ class SharpenedPic final : public Stage {
   Halo* halo_;
   std::vector<OfField> work_;
   ChunkSums<double> sums_;
-  double energy_ = 0.0;  ///< given since the start [J]
 };
 
 }  // namespace mpm

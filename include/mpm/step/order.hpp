@@ -31,7 +31,6 @@ enum class Rank {
   mass_centre,      ///< finds the mass centres of nodes, which `side` needs
   node_choice,      ///< chooses the fields of particles, before anything is gathered
   side,             ///< joins both sides of a body where no tool is between them, before velocities are used
-  transfer,         ///< changes velocities by what particles would lose, before conditions act
   hoop_stress,      ///< books the sum of the internal forces, so it acts before forces are added
   damping,          ///< a force from the gathered momentum, which no stage changes
   axis,             ///< holds its nodes before contact

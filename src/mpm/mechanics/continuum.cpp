@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "field_passes.hpp"
+#include "mpm/mechanics/sharpened_pic.hpp"
 
 namespace mpm {
 namespace {
@@ -29,7 +30,12 @@ class Continuum final : public Mechanics {
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        passes_(fields, settings.threads, settings.choice, settings.halo) {}
+        passes_(fields, settings.threads, settings.choice, settings.halo) {
+    const Transfer& transfer = settings.transfer;
+    if (motion_ == mpm_kernel::kIncrement && transfer.pic_order == 2 && transfer.flip != 1.0) {
+      sharpened_.emplace((1.0 - transfer.flip) * settings.pic_smoothing, fields, settings.threads, settings.halo);
+    }
+  }
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
@@ -70,13 +76,15 @@ class Continuum final : public Mechanics {
     }
   }
 
-  int increments() const override { return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0; }
+  int increments() const override {
+    return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : sharpened_ ? 1 : 0;
+  }
 
   // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
-  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
-  // velocity of the step's start, FMPM with that of its end, in which conditions hold.
+  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC and PIC of order
+  // 2 begin with the velocity of the step's start, FMPM with that of its end, in which conditions hold.
   void begin_increments(StepContext&) override {
-    const bool from_start = settings_.transfer.kind == TransferKind::xpic;
+    const bool from_start = settings_.transfer.kind != TransferKind::fmpm;
     for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
       grid.increment.resize(grid.blocks.size());
@@ -91,6 +99,7 @@ class Continuum final : public Mechanics {
   }
 
   void find_increment(StepContext&) override {
+    if (sharpened_) return sharpened_->find();
     if (auto& patches = passes_.patches()) patches->grid.increment.resize(patches->grid.blocks.size());
     passes_.take(&Grid::increment);
     passes_.spread({&Grid::momentum}, [&](Field& field, const Block& block) {
@@ -108,7 +117,11 @@ class Continuum final : public Mechanics {
     }
   }
 
-  void add_increment(StepContext&) override {
+  void add_increment(StepContext& context) override {
+    if (sharpened_) {
+      slip_energy_ -= sharpened_->add(context.dt);
+      return;
+    }
     for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
       const std::ptrdiff_t count = layout_.dim() * layout_.nodes_per_block();
@@ -345,6 +358,7 @@ class Continuum final : public Mechanics {
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
   FieldPasses<T> passes_;
+  std::optional<SharpenedPic> sharpened_;  ///< of PIC of order 2
   std::optional<ParticleRef> failed_;
   bool must_sort_ = false;
   Mixed mixed_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace mpm {
 namespace {
@@ -76,21 +77,22 @@ void SharpenedPic::follow_sort(int field) {
   if (halo_ != nullptr) work.own = halo_->reached_first(field, blocks);
 }
 
-void SharpenedPic::momentum_gathered(StepContext&) {
+void SharpenedPic::find() {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
-    const Grid& grid = *fields_[f];
+    Grid& grid = *fields_[f];
     OfField& work = work_[f];
     follow_sort(static_cast<int>(f));
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int b = 0; b < grid.blocks.size(); ++b) find_change(grid, work, b);
     if (halo_ != nullptr) halo_->add(static_cast<int>(f), work.change);
+    std::swap(grid.increment, work.change);
   }
 }
 
 void SharpenedPic::find_change(const Grid& grid, OfField& work, int block) const {
   const int dim = grid.layout.dim(), nodes = grid.layout.nodes_per_block();
   const double* mass = grid.mass.block(block);
-  const double* velocity = grid.velocity.block(block);
+  const double* velocity = grid.increment.block(block);
   double* change = work.change.block(block);
   std::fill_n(change, dim * nodes, 0.0);
   for (int k = 0; k < dim; ++k) {
@@ -100,7 +102,7 @@ void SharpenedPic::find_change(const Grid& grid, OfField& work, int block) const
       const int step = upper == 0 ? -stride : stride, leap = -step * (kBlockEdge - 1);
       const int last = upper == 0 ? 0 : kBlockEdge - 1;
       const MirroredMass here(grid, block), there(grid, side < 0 ? block : side);
-      const double* velocity_there = side < 0 ? velocity : grid.velocity.block(side);
+      const double* velocity_there = side < 0 ? velocity : grid.increment.block(side);
       for (int n = 0; n < nodes; ++n) {
         std::array<int, 3> at{};
         for (int a = 0; a < dim; ++a) at[a] = n / stride_of(a, dim) % kBlockEdge;
@@ -127,40 +129,28 @@ void SharpenedPic::find_change(const Grid& grid, OfField& work, int block) const
   }
 }
 
-void SharpenedPic::momentum_updated(StepContext& context) {
-  const double rate = 1.0 / context.dt;
-  for (std::size_t f = 0; f < fields_.size(); ++f) {
-    Grid& grid = *fields_[f];
-    const int numbers = grid.layout.dim() * grid.layout.nodes_per_block();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < grid.blocks.size(); ++b) {
-      const double* change = work_[f].change.block(b);
+double SharpenedPic::add(double dt) {
+  double work = 0.0;
+  for (auto& field : fields_) {
+    Grid& grid = *field;
+    const int dim = grid.layout.dim(), nodes = grid.layout.nodes_per_block();
+    work += sums_.over(grid.blocks.size(), threads_, [&](std::size_t number, double& sum) {
+      const int b = static_cast<int>(number);
+      const double* mass = grid.mass.block(b);
+      const double* change = grid.increment.block(b);
       double* velocity = grid.velocity.block(b);
       double* acceleration = grid.force.block(b);
-      for (int i = 0; i < numbers; ++i) {
-        velocity[i] += change[i];
-        acceleration[i] += change[i] * rate;
-      }
-    }
-  }
-}
-
-// What it gives times the mean of the velocities before and after the step.
-void SharpenedPic::grid_advanced(StepContext& context) {
-  for (std::size_t f = 0; f < fields_.size(); ++f) {
-    const Grid& grid = *fields_[f];
-    const int dim = grid.layout.dim(), nodes = grid.layout.nodes_per_block();
-    energy_ += sums_.over(grid.blocks.size(), threads_, [&](std::size_t b, double& sum) {
-      if (!grid.counts(static_cast<int>(b))) return;
-      const double* mass = grid.mass.block(b);
-      const double* change = work_[f].change.block(b);
-      const double* velocity = grid.velocity.block(b);
-      const double* acceleration = grid.force.block(b);
+      double of_block = 0.0;
       for (int i = 0; i < dim * nodes; ++i) {
-        sum += mass[i % nodes] * change[i] * (velocity[i] - 0.5 * context.dt * acceleration[i]);
+        velocity[i] += change[i];
+        acceleration[i] += change[i] / dt;
+        const double mean = velocity[i] - 0.5 * dt * acceleration[i];  // of before and after the step
+        of_block += mass[i % nodes] * change[i] * mean;
       }
+      if (grid.counts(b)) sum += of_block;
     });
   }
+  return work;
 }
 
 }  // namespace mpm

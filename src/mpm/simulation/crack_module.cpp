@@ -71,7 +71,7 @@ void check(const RunParts& parts) {
   if (parts.modules.find("stress_average") != nullptr) {
     refuse("averages of stress in cells (method.average_stress) know no cracks; leave the key out");
   }
-  if (parts.modules.find("sharpened_pic") != nullptr) {
+  if (definition.method.transfer.pic_order != 1) {
     refuse("differences between nodes (method.transfer.pic_order) know no cracks; write {xpic: 2}, or pic_order: 1");
   }
   if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");

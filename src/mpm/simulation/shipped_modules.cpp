@@ -26,7 +26,6 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_leaving},
       {add_axis},
       {add_damping, {{"alpha", "1/s"}}},
-      {add_sharpened_pic},
       {add_transport,  // before contact, which tells it of heat
        {{"temperature content", "J"}, {"concentration content", "m^3"}, {"pore_pressure content", "m^3"}}},
       {add_rigid_motion},

@@ -36,7 +36,6 @@ void add_axis(RunParts& parts);
 void add_stress_average(RunParts& parts);
 void add_volume_correction(RunParts& parts);
 void add_damping(RunParts& parts);
-void add_sharpened_pic(RunParts& parts);
 void add_rigid_motion(RunParts& parts);
 void add_tool_sides(RunParts& parts);
 void add_absorbing(RunParts& parts);

@@ -22,7 +22,6 @@ namespace mpm {
 /// Settings of the kernels that hold for the whole run.
 struct ContinuumSettings {
   Transfer transfer;
-  double pic_smoothing = 0.0;                 ///< c of PIC of order 2 (mechanics/sharpened_pic.hpp)
   bool average_dilatation = false;            ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)
   AxisMotion axis_motion = AxisMotion::mean;  ///< of rings
   int gradient_terms = 2;                     ///< of exp(grad v dt)

@@ -60,9 +60,6 @@ class Halo {
   void add_reached(int field, std::vector<Nodes>& nodes) const {
     for (const Piece& piece : fields_[field].in) nodes[piece.block] |= piece.nodes;
   }
-  /// Of each block of a velocity field, the nodes that this rank's particles may give to and those of no rank before it
-  /// can: what is found there and added by add() counts once. All of its neighbours are known here.
-  std::vector<Nodes> reached_first(int field, const BlockTable& blocks) const;
 
   /// Numbers received since the start, of 8 bytes each.
   std::uint64_t numbers_received() const { return numbers_received_; }

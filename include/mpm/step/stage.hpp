@@ -30,13 +30,13 @@ class StageWith : public Module {
   virtual void forces_gathered(Context&) {}
   /// Grid::velocity is v^{n+1}, Grid::force the acceleration: a stage that adds dv to the one adds dv/dt to the other.
   virtual void momentum_updated(Context&) {}
-  /// XPIC, FMPM, PIC of order 2: Grid::increment is a velocity [m/s], of the step's start or of its end, that is about
-  /// to be filtered: a stage that holds a node sets the velocity at which it holds it. This exchanges no momentum; it
-  /// only keeps from the filter what the condition removes anyhow.
+  /// XPIC, FMPM: Grid::increment is a velocity [m/s], of the step's start or of its end, that is about to be filtered:
+  /// a stage that holds a node sets the velocity at which it holds it. This exchanges no momentum; it only keeps from
+  /// the filter what the condition removes anyhow.
   virtual void velocity_found(Context&) {}
-  /// XPIC, FMPM, PIC of order 2: Grid::increment [m/s] is about to be added to the velocity that particles adopt; a
-  /// stage that holds a node along a direction removes that component, and books the momentum. Before that the
-  /// increments' momentum sums to zero.
+  /// XPIC, FMPM: Grid::increment [m/s] is about to be added to the velocity that particles adopt; a stage that
+  /// holds a node along a direction removes that component, and books the momentum. Before that the increments'
+  /// momentum sums to zero.
   virtual void increment_found(Context&) {}
   /// The grid's velocities are final, and the step's impulse is known.
   virtual void grid_advanced(Context&) {}

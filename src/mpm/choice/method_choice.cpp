@@ -27,8 +27,8 @@ std::string transfer_label(const Transfer& transfer) {
   switch (transfer.kind) {
     case TransferKind::flip:
       if (transfer.flip == 1.0) return "flip";
-      return (transfer.flip == 0.0 ? "pic" : fmt::format("flip{:g}", transfer.flip)) +
-             (transfer.pic_order == 1 ? "" : fmt::format("pic{}", transfer.pic_order));
+      if (transfer.mixes()) return fmt::format("flip{:g}xpic{}", transfer.flip, transfer.mixed);
+      return transfer.flip == 0.0 ? "pic" : fmt::format("flip{:g}", transfer.flip);
     case TransferKind::apic:
       return "apic";
     case TransferKind::xpic:

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "field_passes.hpp"
-#include "mpm/mechanics/sharpened_pic.hpp"
+#include "mpm/step/chunk_sums.hpp"
 
 namespace mpm {
 namespace {
@@ -30,12 +30,7 @@ class Continuum final : public Mechanics {
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        passes_(fields, settings.threads, settings.choice, settings.halo) {
-    const Transfer& transfer = settings.transfer;
-    if (motion_ == mpm_kernel::kIncrement && transfer.pic_order == 2 && transfer.flip != 1.0) {
-      sharpened_.emplace((1.0 - transfer.flip) * settings.pic_smoothing, fields, settings.threads, settings.halo);
-    }
-  }
+        passes_(fields, settings.threads, settings.choice, settings.halo) {}
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
@@ -77,14 +72,18 @@ class Continuum final : public Mechanics {
   }
 
   int increments() const override {
-    return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : sharpened_ ? 1 : 0;
+    const Transfer& transfer = settings_.transfer;
+    if (transfer.mixes()) return transfer.mixed - 1;
+    return motion_ == mpm_kernel::kAdopt ? transfer.order - 1 : 0;
   }
 
   // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
-  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC and PIC of order
-  // 2 begin with the velocity of the step's start, FMPM with that of its end, in which conditions hold.
+  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
+  // velocity of the step's start, FMPM with that of its end, in which conditions hold. Mixed with FLIP particles take
+  // over a part of the increments as they do of an acceleration.
   void begin_increments(StepContext&) override {
     const bool from_start = settings_.transfer.kind != TransferKind::fmpm;
+    part_of_increment_ = settings_.transfer.mixes() ? 1.0 - settings_.transfer.flip : 1.0;
     for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
       grid.increment.resize(grid.blocks.size());
@@ -99,7 +98,6 @@ class Continuum final : public Mechanics {
   }
 
   void find_increment(StepContext&) override {
-    if (sharpened_) return sharpened_->find();
     if (auto& patches = passes_.patches()) patches->grid.increment.resize(patches->grid.blocks.size());
     passes_.take(&Grid::increment);
     passes_.spread({&Grid::momentum}, [&](Field& field, const Block& block) {
@@ -111,17 +109,15 @@ class Continuum final : public Mechanics {
       passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
         for (int k = 0; k < layout_.dim(); ++k) {
           const int i = k * layout_.nodes_per_block() + n;
-          grid.increment.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
+          double& increment = grid.increment.block(b)[i];
+          increment = part_of_increment_ * (increment - grid.momentum.block(b)[i] * inverse_mass);
         }
       });
     }
+    part_of_increment_ = 1.0;  // the next one is found from this part
   }
 
   void add_increment(StepContext& context) override {
-    if (sharpened_) {
-      slip_energy_ -= sharpened_->add(context.dt);
-      return;
-    }
     for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
       const std::ptrdiff_t count = layout_.dim() * layout_.nodes_per_block();
@@ -131,6 +127,7 @@ class Continuum final : public Mechanics {
         for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
       });
     }
+    if (settings_.transfer.mixes()) accelerate_by_increment(context.dt);
   }
 
   void move_particles(StepContext& context) override {
@@ -205,6 +202,27 @@ class Continuum final : public Mechanics {
       if (groups[0] == groups[grid.blocks.owners()]) continue;
       field.views.push_back(view_of<T>(sets_[s], laws_[s], kernels_, grid.first_owner));
       field.set.push_back(static_cast<int>(s));
+    }
+  }
+
+  // Particles that gain the acceleration gain the increment with it. What that gives, it takes from what PIC took: the
+  // work of the increment's momentum at the mean of the velocities before and after the step.
+  void accelerate_by_increment(double dt) {
+    for (Field& field : passes_.fields()) {
+      Grid& grid = field.grid;
+      const int dim = layout_.dim(), nodes = layout_.nodes_per_block();
+      slip_energy_ -= works_.over(grid.blocks.size(), settings_.threads, [&](std::size_t block, double& work) {
+        const int b = static_cast<int>(block);
+        const double *mass = grid.mass.block(b), *increment = grid.increment.block(b);
+        const double* velocity = grid.velocity.block(b);
+        double* acceleration = grid.force.block(b);
+        double given = 0.0;
+        for (int i = 0; i < dim * nodes; ++i) {
+          acceleration[i] += increment[i] / dt;
+          given += mass[i % nodes] * increment[i] * (velocity[i] - 0.5 * dt * acceleration[i]);
+        }
+        if (grid.counts(b)) work += given;
+      });
     }
   }
 
@@ -358,10 +376,11 @@ class Continuum final : public Mechanics {
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
   FieldPasses<T> passes_;
-  std::optional<SharpenedPic> sharpened_;  ///< of PIC of order 2
   std::optional<ParticleRef> failed_;
   bool must_sort_ = false;
   Mixed mixed_;
+  double part_of_increment_ = 1.0;  ///< that particles take over
+  ChunkSums<double> works_;
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]
   std::uint64_t generation_ = 0;                  ///< of the blocks that parts_when_sorted_ was counted with
   int parts_when_sorted_ = 0;

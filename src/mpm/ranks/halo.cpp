@@ -81,14 +81,6 @@ std::vector<Halo::Nodes> Halo::reach(const BlockTable& blocks) const {
   return nodes;
 }
 
-std::vector<Halo::Nodes> Halo::reached_first(int field, const BlockTable& blocks) const {
-  std::vector<Nodes> nodes = reach(blocks);
-  for (const Piece& piece : fields_[field].in) {
-    if (piece.rank < ranks_.rank()) nodes[piece.block] &= ~piece.nodes;
-  }
-  return nodes;
-}
-
 void Halo::find_own(const Fields& fields, const Everywhere& everywhere) {
   own_.clear();
   own_keys_.clear();

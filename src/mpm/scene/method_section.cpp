@@ -21,7 +21,7 @@ constexpr double kMostGridCells = 1e8;
 // The transfer of soil that flows, of what columns that fall, discs that are pressed in and blades meet
 // (doc/method_keys.md).
 constexpr double kFlipOfSoil = 0.98;
-constexpr int kPicOrderOfSoil = 2;
+constexpr int kXpicOfSoil = 2;
 
 Vec3 read_cell(const Value& value, const Scene& scene) {
   if (value.is_text()) return Vec3::Constant(value.positive(kLength));
@@ -78,10 +78,10 @@ Transfer read_transfer(const Value& value) {
     }
     return transfer;
   }
-  if (value.is_map() && value.node()["pic_order"]) {
-    const Map map(value, {"flip", "pic_order"});
+  if (value.is_map() && value.node()["flip"] && value.node()["xpic"]) {
+    const Map map(value, {"flip", "xpic"});
     transfer.flip = map.at("flip").non_negative(kPlain);
-    transfer.pic_order = map.at("pic_order").integer();
+    transfer.mixed = map.at("xpic").integer();
     return transfer;
   }
   const auto [key, number] = only_key(value, {"flip", "xpic", "fmpm"});
@@ -214,7 +214,7 @@ bool calm(const Map& root, bool part_of_pic, Scene& scene) {
   const auto soil = [](const auto& material) { return is_soil(make_law(material)); };
   if (part_of_pic || std::none_of(materials.begin(), materials.end(), soil)) return false;
   transfer.flip = kFlipOfSoil;
-  if (!root.find("cracks")) transfer.pic_order = kPicOrderOfSoil;  // differences between nodes know no cracks
+  transfer.mixed = kXpicOfSoil;
   scene.choices.emplace_back(
       "method.transfer",
       fmt::format("{}: plain flip leaves noise in soil that flows, which shakes heaps and the force on tools",

@@ -53,7 +53,7 @@ std::string with_method(const YAML::Node& tree, const MethodDefinition& chosen) 
   if (transfer.kind == TransferKind::flip && transfer.flip != 1.0) {
     value = YAML::Node(YAML::NodeType::Map);
     value[kind] = fmt::format("{}", transfer.flip);
-    if (transfer.pic_order != 1) value["pic_order"] = transfer.pic_order;
+    if (transfer.mixes()) value["xpic"] = transfer.mixed;
   } else if (transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm) {
     value = YAML::Node(YAML::NodeType::Map);
     value[kind] = transfer.order;

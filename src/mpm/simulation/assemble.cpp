@@ -14,7 +14,6 @@
 #include "mpm/mechanics/block_probe.hpp"
 #include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/mechanics/scalar_transfers.hpp"
-#include "mpm/mechanics/sharpened_pic.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
@@ -199,7 +198,6 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
 
   ContinuumSettings settings;
   settings.transfer = method.transfer;
-  settings.pic_smoothing = smoothing_of(method.shape, method.particles_per_direction);
   settings.average_dilatation = method.average_dilatation;
   if (axisymmetric(definition.geometry)) settings.axis_motion = method.axis.motion;
   settings.gradient_terms = method.gradient_terms;

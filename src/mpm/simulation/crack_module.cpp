@@ -71,9 +71,6 @@ void check(const RunParts& parts) {
   if (parts.modules.find("stress_average") != nullptr) {
     refuse("averages of stress in cells (method.average_stress) know no cracks; leave the key out");
   }
-  if (definition.method.transfer.pic_order != 1) {
-    refuse("differences between nodes (method.transfer.pic_order) know no cracks; write {xpic: 2}, or pic_order: 1");
-  }
   if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
   if (definition.cracks.heating > 0.0 && parts.temperature == nullptr) {
     refuse("heating needs a temperature; write transport: {temperature: {}}");

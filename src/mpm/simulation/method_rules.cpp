@@ -25,6 +25,12 @@ Fault shape_fault(const MethodDefinition& method, GeometryKind geometry) {
   return MethodFault{"shape", "qcpdi has the nine points of a parallelogram and is planar; use cpdi"};
 }
 
+Fault order_fault(const std::string& name, int order) {
+  if (order >= 1 && order <= kMostOrder) return {};
+  return MethodFault{"transfer." + name,
+                     fmt::format("order {} is not possible; write 1 (which is PIC) to {}", order, kMostOrder)};
+}
+
 Fault transfer_fault(const MethodDefinition& method) {
   const Transfer& transfer = method.transfer;
   switch (transfer.kind) {
@@ -33,17 +39,10 @@ Fault transfer_fault(const MethodDefinition& method) {
         return MethodFault{"transfer.flip",
                            fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
       }
-      if (transfer.pic_order == 1 || transfer.pic_order == 2) return {};
-      return MethodFault{"transfer.pic_order",
-                         fmt::format("order {} is not possible beside a fraction; write 1 or 2, or {{xpic: {}}}",
-                                     transfer.pic_order, transfer.pic_order)};
+      return order_fault("xpic", transfer.mixed);
     case TransferKind::xpic:
-    case TransferKind::fmpm: {
-      if (transfer.order >= 1 && transfer.order <= kMostOrder) return {};
-      const std::string name = kTransferNames[static_cast<int>(transfer.kind)];
-      return MethodFault{"transfer." + name, fmt::format("order {} is not possible; write 1 (which is PIC) to {}",
-                                                         transfer.order, kMostOrder)};
-    }
+    case TransferKind::fmpm:
+      return order_fault(kTransferNames[static_cast<int>(transfer.kind)], transfer.order);
     case TransferKind::apic:
       break;
   }
@@ -116,10 +115,6 @@ Fault pic_fault(const MethodDefinition& method) {
   if (method.transfer.kind != TransferKind::flip) {
     return MethodFault{"damping.pic", fmt::format("transfer {} has no part of PIC to change; use transfer flip",
                                                   kTransferNames[static_cast<int>(method.transfer.kind)])};
-  }
-  if (method.transfer.pic_order != 1) {
-    return MethodFault{"damping.pic",
-                       "this part of PIC is of order 1; leave transfer.pic_order out, or write the fraction there"};
   }
   if (method.transfer.flip != 1.0) {
     return MethodFault{"damping.pic",

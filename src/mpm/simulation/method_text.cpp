@@ -23,8 +23,8 @@ std::string transfer_text(const Transfer& transfer) {
   switch (transfer.kind) {
     case TransferKind::flip:
       if (transfer.flip == 1.0) return name;
-      return (transfer.flip == 0.0 ? "pic" : fmt::format("{} {:g}", name, transfer.flip)) +
-             (transfer.pic_order == 1 ? "" : fmt::format(", PIC of order {}", transfer.pic_order));
+      if (transfer.mixes()) return fmt::format("{} {:g}, xpic {}", name, transfer.flip, transfer.mixed);
+      return transfer.flip == 0.0 ? "pic" : fmt::format("{} {:g}", name, transfer.flip);
     case TransferKind::xpic:
     case TransferKind::fmpm:
       return fmt::format("{} {}", name, transfer.order);

@@ -22,6 +22,8 @@ struct Transfer {
   int order = 2;      ///< m of XPIC(m), k of FMPM(k), from 1, which is PIC; for these only
   int mixed = 1;      ///< m of the XPIC(m) that a fraction of FLIP below 1 is mixed with; for flip only
 
+  int every = 1;      ///< steps from one to the next in which that fraction holds; flip for the others, for flip only
+
   /// Whether FLIP is mixed with XPIC of an order above that of PIC.
   bool mixes() const { return kind == TransferKind::flip && flip != 1.0 && mixed > 1; }
 };

@@ -34,6 +34,7 @@ class Continuum final : public Mechanics {
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
+    turn_ = (turn_ + 1) % settings_.transfer.every;
     passes_.each_field([&](Field& field) { look_at(field); });
     passes_.spread({&Grid::mass, &Grid::momentum}, [&](Field& field, const Block& block) {
       kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
@@ -73,7 +74,7 @@ class Continuum final : public Mechanics {
 
   int increments() const override {
     const Transfer& transfer = settings_.transfer;
-    if (transfer.mixes()) return transfer.mixed - 1;
+    if (transfer.mixes()) return turn_ == 0 ? transfer.mixed - 1 : 0;
     return motion_ == mpm_kernel::kAdopt ? transfer.order - 1 : 0;
   }
 
@@ -186,6 +187,7 @@ class Continuum final : public Mechanics {
   void serialise(StateArchive& archive) override {
     archive.generation("sorts_since", generation_);
     archive.sum("parts_when_sorted", parts_when_sorted_);
+    if (settings_.transfer.every > 1) archive.value("turn", turn_);
     archive.sum("slip_energy", slip_energy_);
     archive.sum("drag_energy", drag_energy_);
   }
@@ -239,7 +241,7 @@ class Continuum final : public Mechanics {
   }
 
   void move(StepContext& context, bool regather) {
-    mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
+    mpm_kernel::MoveSettings settings{context.dt, turn_ == 0 ? settings_.transfer.flip : 1.0, regather};
     settings.by_point = settings_.axis_motion == AxisMotion::point;
     settings.damped = look_at_damping(settings);
     settings.counted = motion_ == mpm_kernel::kIncrement && settings.flip != 1.0;
@@ -379,6 +381,7 @@ class Continuum final : public Mechanics {
   std::optional<ParticleRef> failed_;
   bool must_sort_ = false;
   Mixed mixed_;
+  std::int32_t turn_ = 0;           ///< steps since one in which the fraction of FLIP held
   double part_of_increment_ = 1.0;  ///< that particles take over
   ChunkSums<double> works_;
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]

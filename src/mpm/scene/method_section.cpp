@@ -78,10 +78,11 @@ Transfer read_transfer(const Value& value) {
     }
     return transfer;
   }
-  if (value.is_map() && value.node()["flip"] && value.node()["xpic"]) {
-    const Map map(value, {"flip", "xpic"});
+  if (value.is_map() && value.node()["flip"] && value.node().size() > 1) {
+    const Map map(value, {"flip", "xpic", "every"});
     transfer.flip = map.at("flip").non_negative(kPlain);
-    transfer.mixed = map.at("xpic").integer();
+    if (const auto order = map.find("xpic")) transfer.mixed = order->integer();
+    if (const auto every = map.find("every")) transfer.every = every->integer();
     return transfer;
   }
   const auto [key, number] = only_key(value, {"flip", "xpic", "fmpm"});

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "field_passes.hpp"
-#include "mpm/step/chunk_sums.hpp"
+#include "increments.hpp"
 
 namespace mpm {
 namespace {
@@ -30,7 +30,8 @@ class Continuum final : public Mechanics {
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        passes_(fields, settings.threads, settings.choice, settings.halo) {}
+        passes_(fields, settings.threads, settings.choice, settings.halo),
+        increments_(settings.threads) {}
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
@@ -73,62 +74,14 @@ class Continuum final : public Mechanics {
   }
 
   int increments() const override {
-    const Transfer& transfer = settings_.transfer;
-    if (transfer.mixes()) return turn_ == 0 ? transfer.mixed - 1 : 0;
-    return motion_ == mpm_kernel::kAdopt ? transfer.order - 1 : 0;
+    if (settings_.transfer.mixes()) return turn_ == 0 ? settings_.transfer.mixed - 1 : 0;
+    return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0;
   }
-
-  // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
-  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
-  // velocity of the step's start, FMPM with that of its end, in which conditions hold. Mixed with FLIP particles take
-  // over a part of the increments as they do of an acceleration.
-  void begin_increments(StepContext&) override {
-    const bool from_start = settings_.transfer.kind != TransferKind::fmpm;
-    part_of_increment_ = settings_.transfer.mixes() ? 1.0 - settings_.transfer.flip : 1.0;
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      grid.increment.resize(grid.blocks.size());
-      const int nodes = layout_.nodes_per_block();
-      passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
-        for (int k = 0; k < layout_.dim(); ++k) {
-          const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
-          grid.increment.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
-        }
-      });
-    }
-  }
-
-  void find_increment(StepContext&) override {
-    if (auto& patches = passes_.patches()) patches->grid.increment.resize(patches->grid.blocks.size());
-    passes_.take(&Grid::increment);
-    passes_.spread({&Grid::momentum}, [&](Field& field, const Block& block) {
-      Grid& grid = field.grid;
-      kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
-    });
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
-        for (int k = 0; k < layout_.dim(); ++k) {
-          const int i = k * layout_.nodes_per_block() + n;
-          double& increment = grid.increment.block(b)[i];
-          increment = part_of_increment_ * (increment - grid.momentum.block(b)[i] * inverse_mass);
-        }
-      });
-    }
-    part_of_increment_ = 1.0;  // the next one is found from this part
-  }
-
+  void begin_increments(StepContext&) override { increments_.begin(passes_, settings_.transfer); }
+  void find_increment(StepContext&) override { increments_.find(passes_, kernels_); }
   void add_increment(StepContext& context) override {
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      const std::ptrdiff_t count = layout_.dim() * layout_.nodes_per_block();
-      passes_.each_node_range(grid, [&](int first, int last) {
-        const double* from = grid.increment.block(first);
-        double* to = grid.velocity.block(first);
-        for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
-      });
-    }
-    if (settings_.transfer.mixes()) accelerate_by_increment(context.dt);
+    increments_.add(passes_);
+    if (settings_.transfer.mixes()) slip_energy_ -= increments_.accelerate(passes_, context.dt);
   }
 
   void move_particles(StepContext& context) override {
@@ -184,6 +137,9 @@ class Continuum final : public Mechanics {
     }
     if (settings_.damping != nullptr) report.add("damping", NamedEnergy::Kind::dissipated, drag_energy_);
   }
+  void hashed(std::vector<double>& numbers) const override {
+    if (settings_.transfer.every > 1) numbers.push_back(turn_);
+  }
   void serialise(StateArchive& archive) override {
     archive.generation("sorts_since", generation_);
     archive.sum("parts_when_sorted", parts_when_sorted_);
@@ -204,27 +160,6 @@ class Continuum final : public Mechanics {
       if (groups[0] == groups[grid.blocks.owners()]) continue;
       field.views.push_back(view_of<T>(sets_[s], laws_[s], kernels_, grid.first_owner));
       field.set.push_back(static_cast<int>(s));
-    }
-  }
-
-  // Particles that gain the acceleration gain the increment with it. What that gives, it takes from what PIC took: the
-  // work of the increment's momentum at the mean of the velocities before and after the step.
-  void accelerate_by_increment(double dt) {
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      const int dim = layout_.dim(), nodes = layout_.nodes_per_block();
-      slip_energy_ -= works_.over(grid.blocks.size(), settings_.threads, [&](std::size_t block, double& work) {
-        const int b = static_cast<int>(block);
-        const double *mass = grid.mass.block(b), *increment = grid.increment.block(b);
-        const double* velocity = grid.velocity.block(b);
-        double* acceleration = grid.force.block(b);
-        double given = 0.0;
-        for (int i = 0; i < dim * nodes; ++i) {
-          acceleration[i] += increment[i] / dt;
-          given += mass[i % nodes] * increment[i] * (velocity[i] - 0.5 * dt * acceleration[i]);
-        }
-        if (grid.counts(b)) work += given;
-      });
     }
   }
 
@@ -283,7 +218,7 @@ class Continuum final : public Mechanics {
   bool look_at_damping(mpm_kernel::MoveSettings& settings) {
     const DampingControl* damping = settings_.damping;
     if (damping == nullptr) return false;
-    settings.flip = damping->flip();
+    if (turn_ == 0) settings.flip = damping->flip();
     if (!damping->in_update() && !damping->needs_energy()) return false;
     passes_.each_field([&](Field& field) {
       for (int i = 0; i < field.count(); ++i) {
@@ -381,9 +316,8 @@ class Continuum final : public Mechanics {
   std::optional<ParticleRef> failed_;
   bool must_sort_ = false;
   Mixed mixed_;
-  std::int32_t turn_ = 0;           ///< steps since one in which the fraction of FLIP held
-  double part_of_increment_ = 1.0;  ///< that particles take over
-  ChunkSums<double> works_;
+  Increments<T> increments_;
+  std::int32_t turn_ = 0;                         ///< steps since one in which the fraction of FLIP held
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]
   std::uint64_t generation_ = 0;                  ///< of the blocks that parts_when_sorted_ was counted with
   int parts_when_sorted_ = 0;

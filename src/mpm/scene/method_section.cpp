@@ -20,8 +20,13 @@ constexpr double kMostGridCells = 1e8;
 
 // The transfer of soil that flows, of what columns that fall, discs that are pressed in and blades meet
 // (doc/method_keys.md).
-constexpr double kFlipOfSoil = 0.98;
-constexpr int kXpicOfSoil = 2;
+const Transfer kTransferOfSoil = [] {
+  Transfer transfer;
+  transfer.flip = 0.6;
+  transfer.mixed = 2;
+  transfer.every = 5;
+  return transfer;
+}();
 
 Vec3 read_cell(const Value& value, const Scene& scene) {
   if (value.is_text()) return Vec3::Constant(value.positive(kLength));
@@ -214,8 +219,7 @@ bool calm(const Map& root, bool part_of_pic, Scene& scene) {
   const auto& materials = scene.definition.materials;
   const auto soil = [](const auto& material) { return is_soil(make_law(material)); };
   if (part_of_pic || std::none_of(materials.begin(), materials.end(), soil)) return false;
-  transfer.flip = kFlipOfSoil;
-  transfer.mixed = kXpicOfSoil;
+  transfer = kTransferOfSoil;
   scene.choices.emplace_back(
       "method.transfer",
       fmt::format("{}: plain flip leaves noise in soil that flows, which shakes heaps and the force on tools",

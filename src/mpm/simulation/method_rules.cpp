@@ -39,6 +39,10 @@ Fault transfer_fault(const MethodDefinition& method) {
         return MethodFault{"transfer.flip",
                            fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
       }
+      if (transfer.every < 1) {
+        return MethodFault{"transfer.every",
+                           fmt::format("{} is not possible; write 1, for all steps, or more", transfer.every)};
+      }
       return order_fault("xpic", transfer.mixed);
     case TransferKind::xpic:
     case TransferKind::fmpm:
@@ -115,6 +119,10 @@ Fault pic_fault(const MethodDefinition& method) {
   if (method.transfer.kind != TransferKind::flip) {
     return MethodFault{"damping.pic", fmt::format("transfer {} has no part of PIC to change; use transfer flip",
                                                   kTransferNames[static_cast<int>(method.transfer.kind)])};
+  }
+  if (method.transfer.mixed != 1 || method.transfer.every != 1) {
+    return MethodFault{"damping.pic",
+                       "transfer says another part of PIC, by xpic or every; write transfer flip, or leave pic out"};
   }
   if (method.transfer.flip != 1.0) {
     return MethodFault{"damping.pic",

@@ -87,8 +87,8 @@ class Increments {
         const double* velocity = grid.velocity.block(b);
         double *acceleration = grid.force.block(b), given = 0.0;
         for (int i = 0; i < numbers; ++i) {
+          given += mass[i % nodes] * increment[i] * (velocity[i] - increment[i] - 0.5 * dt * acceleration[i]);
           acceleration[i] += increment[i] / dt;
-          given += mass[i % nodes] * increment[i] * (velocity[i] - 0.5 * dt * acceleration[i]);
         }
         if (grid.counts(b)) work += given;
       });

@@ -89,8 +89,9 @@ TEST(DilationEnd, ABandRisesByTheSameOnTwoGrids) {
 // A blade as rough as its sand, 30 degrees of friction and of dilation, after a travel of 6 to 14 % of its depth of 0.2
 // m. Once the bands before it have risen, the sand is as strong as one of Davis's (1968) reduced friction, an estimate:
 // with that the force lies between Lancellotta's bound and the log spiral's, 0.67 and 0.77 of the force while sand
-// dilates on. 3 %: 4 cells are 0.5 % below with a rise of 1 mm. 5 % from 4 cells to 12: measured are 2 to 4 %, of
-// forces that swing by as much. An end at a strain of 0.1 meets 0.77 and 0.71. 4 s.
+// dilates on. Measured are 0.72, 0.73 and 0.72 with 4, 8 and 12 cells and a rise of 1 mm, 0.72, 0.76 and 0.76 with 2
+// mm; asked for are 3 % beyond these bounds, and from 8 cells to 12. An end at a strain of 0.1 meets 0.77 and 0.71. 5
+// s.
 TEST(DilationEnd, RoughBladeMeetsTheSameForceOnTwoGrids) {
   const double friction = 30.0 * kDegree, reduced = study::davis_friction(friction, 0.0), travel = 0.1;
   const auto grown = [travel](double angle) { return 1.0 + travel * study::swept_soil_growth(angle, true); };
@@ -99,17 +100,17 @@ TEST(DilationEnd, RoughBladeMeetsTheSameForceOnTwoGrids) {
   const double least = end.lower * grown(reduced) / whole, most = end.upper * grown(reduced) / whole;
   const auto& problem = study::tool_force::find_problem("blade_rough");
   const std::vector<std::vector<std::string>> ends = {{"materials.soil.dilation_limit=0.1"},  // and a rise of 1 mm
-                                                      {"materials.soil.dilation_rise=4 mm"}};
+                                                      {"materials.soil.dilation_rise=2 mm"}};
   for (const auto& keys : ends) {
     std::vector<double> forces;
-    for (const double cells : {4.0, 12.0}) {
+    for (const double cells : {4.0, 8.0, 12.0}) {
       const auto row = study::tool_force::run_row(problem, cells, keys);
       ASSERT_EQ(row.status, "ok") << row.message;
       EXPECT_GT(row.over_exact, 0.97 * least) << keys[0] << ' ' << cells;
       EXPECT_LT(row.over_exact, 1.03 * most) << keys[0] << ' ' << cells;
       forces.push_back(row.over_exact);
     }
-    EXPECT_NEAR(forces[1] / forces[0], 1.0, 0.05) << keys[0];
+    EXPECT_NEAR(forces[2] / forces[1], 1.0, 0.03) << keys[0];
   }
 }
 

@@ -36,8 +36,8 @@
 // between them meet nearly the same: with a cover that is whole from half a cell inside on, a blade between two rows
 // drags the soil below it along, and acts half a cell deeper than one on a row. With t out of the face across its edge,
 // h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + h t, c = 1 - (d n).t / h
-// + e. The shift e is measured: with 0.2 the mean over places of the grid of smooth, rough and rolled-back blades is
-// nearest to exact. With e = 0 they act a fifth of a cell too short, since particles lie on one side of the edge or the
+// + e. The shift e is measured: with 0.15 the mean over places of the grid of smooth, rough and rolled-back blades is
+// nearest to exact. With e = 0 they act a sixth of a cell too short, since particles lie on one side of the edge or the
 // other by their centres, and the lowest that a face pushes lies inside the edge. A tool whose two sides have a
 // velocity field each has e = 0: no field goes on behind its face, and it acts where it lies.
 //

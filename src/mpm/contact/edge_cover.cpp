@@ -17,7 +17,7 @@ constexpr double kLeastPart = 1e-3;    ///< cover of a node that counts
 constexpr double kWhole = 1.0 - 1e-6;  ///< part of a hat inside the edge that is all: round-off must not make an edge
 constexpr double kLeastFront = 5e-3;   ///< part of a hat in front of a face: splines reach nodes that have none
 constexpr double kHalf = 0.5;          ///< cover from which on a node decides with its whole weight
-constexpr double kFurther = 0.2;       ///< cells by which an edge acts further out than it lies
+constexpr double kFurther = 0.15;      ///< cells by which an edge acts further out than it lies
 constexpr double kThinnest = 1e-2;     ///< mass beyond an edge, over that of the node, from which on there is material
 
 /// Directions along the surface across the edges near a point, away from the face.

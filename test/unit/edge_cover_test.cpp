@@ -261,7 +261,7 @@ TEST(EdgeCover, AnEdgeOnWhichMaterialEndsIsNone) {
   for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_NEAR(found.nodes[n].weight, found.before[n], 1e-14);
 }
 
-// Nodes 0.8 cells above the edge are covered just wholly. Whether a point is at an edge decides on the overlap
+// Nodes 0.85 cells above the edge are covered just wholly. Whether a point is at an edge decides on the overlap
 // that it keeps.
 TEST(EdgeCover, RoundOffDecidesNothingWhereNodesAreJustCovered) {
   Field field(2);

@@ -18,8 +18,8 @@ namespace edge_cover_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kCell = 0.1;
-constexpr double kSeen = 1e-5;    ///< [m/s]: a millionth of a node taken for all, of velocities 10 m/s apart
-constexpr double kFurther = 0.1;  ///< cells by which an edge acts further out than it lies
+constexpr double kSeen = 1e-5;     ///< [m/s]: a millionth of a node taken for all, of velocities 10 m/s apart
+constexpr double kFurther = 0.15;  ///< cells by which an edge of a tool without sides acts further out than it lies
 
 /// A field whose nodes all carry 1 kg, from 0 to 2 m along each axis.
 struct Field {
@@ -56,11 +56,12 @@ struct Field {
   std::vector<ParticleSet> sets;
 };
 
-RigidBody body_of(std::unique_ptr<Surface> surface, const Vec3& position) {
+RigidBody body_of(std::unique_ptr<Surface> surface, const Vec3& position, Sides sides = Sides::one) {
   RigidBodyDefinition definition;
   definition.name = "tool";
   definition.surface = std::move(surface);
   definition.pose = {position, Quat::Identity()};
+  definition.sides = sides;
   return RigidBody(definition);
 }
 
@@ -98,7 +99,10 @@ Around around(Field& field, const RigidBody& body, const Vec3& place, const Vec3
     result.before.push_back(weights.weight[n]);
   }
   result.nodes.resize(2 * weights.count);
-  const EdgeCover::Nodes kept = EdgeCover(bodies).apply(point, field.grid(), result.nodes.data(), weights.count);
+  const int dim = field.grid().layout.dim();
+  const EdgeCover cover(bodies, dim == 2 ? GeometryKind::plane_strain : GeometryKind::solid,
+                        field.grid().layout.smallest_cell());
+  const EdgeCover::Nodes kept = cover.apply(point, field.grid(), result.nodes.data(), weights.count);
   result.at_edge = kept.at_edge;
   result.nodes.resize(kept.count);
   return result;
@@ -143,6 +147,19 @@ TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
       EXPECT_NEAR(whole, 1.0, 1e-12);  // momentum
     }
   }
+}
+
+// A tool whose two sides have a field each acts where its edge lies.
+TEST(EdgeCover, AToolThatDividesTheFieldActsWhereItLies) {
+  Field field(2);
+  const double edge = 0.54;
+  const RigidBody body = body_of(make_box({0.1, kInfinite, 2.0}), {0.58, 0.0, edge + 1.0}, Sides::automatic);
+  const auto velocity = [&](const Vec3& place) {
+    const double above = hat_beyond((place.z() - edge) / kCell);
+    const double front = hat_beyond((place.x() - 0.63) / kCell);
+    return (above * front * 3.0 - (1.0 - above) * 7.0) / (above * front + 1.0 - above);
+  };
+  EXPECT_NEAR(around(field, body, {0.63, 0.0, edge + 0.04}, Vec3::UnitX()).seen(field, velocity), 3.0, kSeen);
 }
 
 // What an impulse at one point does to the velocity at another is what it does the other way round, whatever the nodes
@@ -244,15 +261,15 @@ TEST(EdgeCover, AnEdgeOnWhichMaterialEndsIsNone) {
   for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_NEAR(found.nodes[n].weight, found.before[n], 1e-14);
 }
 
-// Nodes 0.9 cells above it are covered just wholly. Whether a point is at an edge decides on the overlap
+// Nodes 0.85 cells above the edge are covered just wholly. Whether a point is at an edge decides on the overlap
 // that it keeps.
 TEST(EdgeCover, RoundOffDecidesNothingWhereNodesAreJustCovered) {
   Field field(2);
   for (const double off : {-1e-14, -1e-16, 0.0, 1e-16, 1e-14}) {
     SCOPED_TRACE(off);
-    expect_no_edge(around(field, blade(0.51 + off), {0.63, 0.0, 0.65}, Vec3::UnitX()));
+    expect_no_edge(around(field, blade(0.5 + kFurther * kCell + off), {0.63, 0.0, 0.65}, Vec3::UnitX()));
   }
-  EXPECT_TRUE(around(field, blade(0.51 + 2e-3), {0.63, 0.0, 0.65}, Vec3::UnitX()).at_edge);
+  EXPECT_TRUE(around(field, blade(0.5 + kFurther * kCell + 2e-3), {0.63, 0.0, 0.65}, Vec3::UnitX()).at_edge);
 }
 
 TEST(EdgeCover, APointBeyondAnEdgeIsNoContact) {

@@ -22,6 +22,11 @@ MaterialDefinition before_flow(MaterialDefinition material) {
   if (const auto* grain = std::get_if<MuIDefinition>(&material.law)) {
     return {material.name, material.density, LinearElasticDefinition{grain->elasticity}};
   }
+  if (const auto* sand = std::get_if<NorSandDefinition>(&material.law)) {
+    const double shear = sand->shear_modulus * std::pow(sand->least_pressure / 1e5, sand->shear_exponent);
+    return {material.name, material.density,
+            LinearElasticDefinition{{2.0 * shear * (1.0 + sand->poisson), sand->poisson}}};
+  }
   return material;
 }
 

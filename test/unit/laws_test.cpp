@@ -159,7 +159,7 @@ TEST(EveryLaw, AccountsForItsWork) {
     const LawDefinition& law = specimen.material.law;
     if (std::holds_alternative<LinearElasticDefinition>(law) || std::holds_alternative<DruckerPragerDefinition>(law) ||
         std::holds_alternative<MohrCoulombDefinition>(law) || std::holds_alternative<MuIDefinition>(law) ||
-        std::holds_alternative<CamClayDefinition>(law)) {
+        std::holds_alternative<CamClayDefinition>(law) || std::holds_alternative<NorSandDefinition>(law)) {
       continue;
     }
     const double coarse = energy_gap(specimen, 400), fine = energy_gap(specimen, 800);
@@ -173,6 +173,17 @@ TEST(EveryLaw, AccountsForItsWork) {
     EXPECT_GT(std::log2(coarse / fine), order) << specimen.material.name;
     EXPECT_LT(fine, 1e-5) << specimen.material.name;
   }
+}
+
+/// NorSand as stiff for its strength as the others; G hardly follows the pressure, since G(p) keeps no energy.
+NorSandDefinition small_sand() {
+  NorSandDefinition sand = some_sand(0.9, 0.0);
+  sand.shear_modulus = 4e5;
+  sand.shear_exponent = 0.0;
+  sand.hardening = 1e4;
+  sand.hardening_of_state = 0.0;
+  sand.least_pressure = 10.0;
+  return sand;
 }
 
 // Soil has an energy at small strain: the gap is of the order of the path's strain, 3e-5 along an axis, and of the
@@ -191,6 +202,7 @@ TEST(EveryLaw, OfSoilAccountsForItsWorkAtSmallStrain) {
               strain,
               -strain,
               1.0},
+             {{"sand", 1600.0, small_sand()}, strain, -strain, 1.0},
              {{"by Lode angle", 1600.0, DruckerPragerDefinition{soil, 0.6, dilation, 2.0}}, strain, -strain, 1.0},
              {{"pyramid", 1600.0, MohrCoulombDefinition{soil, 0.6, dilation, 2.0, -1.0}}, strain, -strain, 1.0},
              {{"cut off", 1600.0, MohrCoulombDefinition{soil, 0.6, dilation, 10.0, 2.0}}, strain, strain, 1.0}}) {

@@ -141,8 +141,8 @@ TEST(MaterialDefinition, Softening) {
   EXPECT_EQ(with({0.01, 0.05, 20.0 * kDegree, 0.0}), "");
   EXPECT_EQ(with({0.01, 0.05, friction, 1000.0}), "");  // dilation alone
   EXPECT_EQ(with({0.01, 0.0, 20.0 * kDegree, 0.0}),
-            "material 'soil': shear band is 0 m; strength that falls over a slip needs the width of a shear band as "
-            "the grid resolves it: write the edge of a cell");
+            "material 'soil': shear band is 0 m; strength that falls over a slip and dilation that ends at a rise need "
+            "the width of a shear band as the grid resolves it: write the edge of a cell");
   EXPECT_EQ(with({0.01, 0.05, 31.0 * kDegree, 0.0}),
             "material 'soil': residual friction angle is 31 degrees; it must lie from 0 to the friction angle, 30");
   EXPECT_EQ(with({0.01, 0.05, friction, 1001.0}),
@@ -163,6 +163,29 @@ TEST(MaterialDefinition, Softening) {
   law.dilation_angle = 0.0;
   law.softening = {0.01, 0.05, friction, 1000.0};
   EXPECT_NE(refusal(sand).find("nothing falls over it"), std::string::npos);
+}
+
+// Dilation ends at the rise over the width of the band on the grid, or at the limit of the soil.
+TEST(MaterialDefinition, DilationRise) {
+  const auto with = [](double rise, double band) {
+    MaterialDefinition material = soil();
+    SoilSoftening& softening = std::get<DruckerPragerDefinition>(material.law).softening;
+    softening.rise = rise;
+    softening.band = band;
+    return refusal(material);
+  };
+  EXPECT_EQ(with(1e-3, 0.05), "");
+  EXPECT_EQ(with(kInfinity, 0.0), "");  // none
+  EXPECT_EQ(with(0.0, 0.05), "material 'soil': dilation rise is 0 m; it must be positive");
+  for (const double bad : {-1e-3, kNan}) EXPECT_NE(with(bad, 0.05), "") << bad;
+  EXPECT_NE(with(1e-3, 0.0).find("shear band is 0 m;"), std::string::npos);
+  SoilSoftening softening;
+  EXPECT_EQ(softening.dilation_limit(0.1), 0.1);
+  softening.rise = 1e-3;
+  for (const auto& [band, limit] : {std::pair{0.05, 0.02}, {0.025, 0.04}, {0.005, 0.1}}) {
+    softening.band = band;
+    EXPECT_DOUBLE_EQ(softening.dilation_limit(0.1), limit) << band;
+  }
 }
 
 TEST(MaterialDefinition, Metal) {

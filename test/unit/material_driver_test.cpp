@@ -104,6 +104,22 @@ TEST(MaterialDriver, SoftensSoilInABandThatIsGiven) {
   EXPECT_NEAR(last(table(options), "szz [Pa]"), -203960.6, 1.0);
 }
 
+// A piece of soil that dilates alike has no band: without a grid and without shear_band its dilation ends at the volume
+// of dilation_limit, with shear_band at the rise over it. 0.3 %: elastic volume under 300 kPa along the axis.
+TEST(MaterialDriver, EndsDilationInABandThatIsGiven) {
+  MaterialDriverOptions options;
+  const std::string sand =
+      "{law: mohr_coulomb, density: 1600, young: 60 MPa, poisson: 0.3, friction_angle: 30 deg, dilation_angle: 20 deg";
+  options.path = "triaxial";
+  options.strain = "-20%";
+  options.material = sand + "}";
+  EXPECT_NEAR(last(table(options), "j [1]"), 1.1, 0.003);
+  options.material = sand + ", shear_band: 2 cm}";
+  EXPECT_NEAR(last(table(options), "j [1]"), 1.05, 0.003);
+  options.material = sand + ", dilation_rise: 1 mm}";
+  EXPECT_NE(error_of(options).find("add shear_band"), std::string::npos);
+}
+
 // Critical state at 100 kPa on the sides, M = 1: p = 150 kPa, q = 150 kPa, so 250 kPa along the axis; 0.2 %: its
 // approach.
 TEST(MaterialDriver, DrivesClayToItsCriticalState) {

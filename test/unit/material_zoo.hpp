@@ -48,6 +48,24 @@ inline JohnsonCookDefinition hot_steel() {
   return steel;
 }
 
+/// Loose or dense sand, soft for its strength so that paths of large steps do not only flow.
+inline NorSandDefinition some_sand(double voids, double curve) {
+  NorSandDefinition sand;
+  sand.gamma = curve > 0.0 ? 0.934 : 0.9;
+  sand.lambda = 0.02;
+  sand.critical_exponent = curve;
+  sand.slope = 1.25;
+  sand.coupling = 0.3;
+  sand.dilatancy = 3.5;
+  sand.hardening = 100.0;
+  sand.hardening_of_state = 300.0;
+  sand.shear_modulus = 1e6;
+  sand.void_ratio = voids;
+  sand.overconsolidation = 1.2;
+  sand.least_pressure = 1e3;
+  return sand;
+}
+
 /// Much of the strength goes on a path of the zoo.
 inline const SoilSoftening kFall{0.005, 0.1, 0.4, 500.0};
 
@@ -94,6 +112,9 @@ inline std::vector<Specimen> zoo() {
       {{"dilated_mu_i", 1500.0, MuIDefinition{soil, 0.38, 0.64, 0.279, 1e-3, 2500.0}}, 0.01, 0.0, 1e-4},
       {{"cam_clay", 1700.0, CamClayDefinition{0.2, 0.05, 1.0, 1.0, 1e6, 0.0, 20e3, 0.0, 1e3}}, 0.01, -0.1, 1.0},
       {{"dilated_cam_clay", 1700.0, CamClayDefinition{0.2, 0.05, 1.0, 1.0, 0.0, 0.3, 20e3, 0.0, 1e3}}, 0.02, 0.0, 1.0},
+      {{"norsand", 1500.0, some_sand(0.9, 0.0)}, 2e-3, -0.1, 1.0},
+      {{"dense_norsand", 1500.0, some_sand(0.65, 0.7)}, 2e-3, -0.05, 1.0},
+      {{"dilated_norsand", 1500.0, some_sand(0.75, 0.0)}, 0.01, 0.0, 1.0},
       {{"dilated_lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0},
   };
 }

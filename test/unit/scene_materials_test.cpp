@@ -69,7 +69,7 @@ TEST(SceneMaterials, Soil) {
   const auto sand = std::get<DruckerPragerDefinition>(scene.definition.materials.at(0).law);
   EXPECT_EQ(sand.match, ConeMatch::mohr_coulomb);
   EXPECT_EQ(sand.dilation_limit, 0.1);
-  for (const char* key : {"match", "dilation_limit"}) {
+  for (const char* key : {"match", "dilation_limit", "dilation_rise"}) {
     const auto recorded = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
     EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
   }
@@ -110,7 +110,8 @@ TEST(SceneMaterials, SoilThatSoftens) {
              choice.second == "0.01 m is a plastic shear strain of 0.1 in a band of one cell, 0.1 m wide";
     };
     EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1);
-    for (const char* key : {"residual_friction_angle: 30 deg", "residual_cohesion: 0", "shear_band: 0.1"}) {
+    for (const char* key :
+         {"residual_friction_angle: 30 deg", "residual_cohesion: 0", "dilation_limit: none, shear_band: 0.1"}) {
       EXPECT_NE(refusal(start + ", " + key).find("write softening_slip"), std::string::npos) << key;
     }
     EXPECT_EQ(refusal(start + ", softening_slip: 10 mm, shear_band: 5 cm"),
@@ -118,6 +119,48 @@ TEST(SceneMaterials, SoilThatSoftens) {
     EXPECT_EQ(refusal(start + ", softening_slip: 10 mm, residual_friction_angle: 41 deg"),
               ".residual_friction_angle: residual friction angle is 41 degrees; it must lie from 0 to the friction "
               "angle, 40");
+  }
+}
+
+// The scene's cell is 0.1 m.
+TEST(SceneMaterials, SoilWhoseDilationEndsAtARise) {
+  for (const std::string law : {"drucker_prager", "mohr_coulomb"}) {
+    const std::string still = "density: 1600, law: " + law + ", young: 10 MPa, poisson: 0.3, friction_angle: 40 deg";
+    const std::string start = still + ", dilation_angle: 10 deg";
+    const auto softening = [](const std::string& text) {
+      const Scene scene = scene_of(text);
+      const LawDefinition& definition = scene.definition.materials.at(0).law;
+      const auto* cone = std::get_if<DruckerPragerDefinition>(&definition);
+      return cone ? cone->softening : std::get<MohrCoulombDefinition>(definition).softening;
+    };
+    const auto explained = [](const std::string& text) {
+      for (const auto& [path, choice] : scene_of(text).choices) {
+        if (path == "materials.m.dilation_rise") return choice;
+      }
+      return std::string();
+    };
+    EXPECT_EQ(softening(start).rise, 1e-3);
+    EXPECT_EQ(softening(start).band, 0.1);
+    EXPECT_EQ(softening(start + ", dilation_rise: 4 mm, shear_band: 0.14").rise, 4e-3);
+    EXPECT_EQ(softening(start + ", dilation_rise: 4 mm, shear_band: 0.14").band, 0.14);
+    EXPECT_EQ(softening(start + ", dilation_limit: none, dilation_rise: 4 mm").rise, 4e-3);
+    for (const char* none : {", dilation_rise: none", ", dilation_limit: none", ", softening_slip: 10 mm"}) {
+      EXPECT_TRUE(std::isinf(softening(start + none).rise)) << none;
+      EXPECT_EQ(explained(start + none), "") << none;
+    }
+    EXPECT_EQ(softening(start + ", softening_slip: 10 mm, dilation_limit: 0.05").rise, 1e-3);
+    EXPECT_TRUE(std::isinf(softening(still).rise));
+    EXPECT_EQ(explained(start),
+              "0.001 m: dilation ends when the volume has grown by 0.01 in a band of one cell, 0.1 m wide");
+    EXPECT_EQ(explained(start + ", dilation_rise: 4 mm, shear_band: 0.2"),
+              "0.004 m: dilation ends when the volume has grown by 0.02 in a band 0.2 m wide");
+    EXPECT_EQ(explained(start + ", dilation_rise: 2 cm"),
+              "0.02 m: a cell is finer than a band in the soil, where dilation ends at dilation_limit, 0.1");
+    EXPECT_EQ(refusal(start + ", dilation_rise: 0").rfind(".dilation_rise: '0' is not greater than 0;", 0), 0u);
+    EXPECT_EQ(refusal(start + ", dilation_rise: 4 mm, shear_band: 5 cm"),
+              ".shear_band: 0.05 m is narrower than a cell, 0.1 m, in which the grid resolves a band; leave it out");
+    EXPECT_EQ(refusal(still + ", shear_band: 0.2"),
+              ".shear_band: nothing falls along a shear band: write softening_slip, or dilation_rise, or leave it out");
   }
 }
 
@@ -219,6 +262,60 @@ TEST(SceneMaterials, Clay) {
             ".lambda: lambda is 0.05; it must be finite and above kappa, 0.05");
   EXPECT_EQ(refusal(start + ", poisson: 0.5, preconsolidation_pressure: 50 kPa"),
             ".poisson: Poisson's ratio is 0.5; it must lie between -1 and 0.5, both excluded");
+}
+
+TEST(SceneMaterials, Sand) {
+  const std::string start =
+      "density: 1500, law: norsand, gamma: 0.816, lambda: 0.0135, M: 1.26, N: 0.35, chi: 3.5, H: 103, "
+      "shear_modulus: 50 MPa";
+  const Scene scene = scene_of(start + ", void_ratio: 0.7");
+  const auto sand = std::get<NorSandDefinition>(scene.definition.materials.at(0).law);
+  EXPECT_EQ(sand.gamma, 0.816);
+  EXPECT_EQ(sand.lambda, 0.0135);
+  EXPECT_EQ(sand.critical_exponent, 0.0);
+  EXPECT_EQ(sand.slope, 1.26);
+  EXPECT_EQ(sand.coupling, 0.35);
+  EXPECT_EQ(sand.dilatancy, 3.5);
+  EXPECT_EQ(sand.hardening, 103.0);
+  EXPECT_EQ(sand.hardening_of_state, 0.0);
+  EXPECT_EQ(sand.shear_modulus, 50e6);
+  EXPECT_EQ(sand.shear_exponent, 0.5);
+  EXPECT_EQ(sand.poisson, 0.2);
+  EXPECT_EQ(sand.void_ratio, 0.7);
+  EXPECT_EQ(sand.overconsolidation, 1.0);
+  EXPECT_EQ(sand.least_pressure, 100.0);
+  for (const std::string key : {"shear_exponent", "poisson", "overconsolidation_ratio", "least_pressure"}) {
+    const auto recorded = [&](const auto& choice) { return choice.first == "materials.m." + key; };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
+  }
+  const auto other =
+      law_of<NorSandDefinition>(start +
+                                ", relative_density: 0.25, e_max: 0.8, e_min: 0.4, critical_exponent: 0.7, H_psi: 980, "
+                                "shear_exponent: 0.6, poisson: 0.15, overconsolidation_ratio: 2, least_pressure: 50");
+  EXPECT_NEAR(other.void_ratio, 0.7, 1e-15);
+  EXPECT_EQ(other.critical_exponent, 0.7);
+  EXPECT_EQ(other.hardening_of_state, 980.0);
+  EXPECT_EQ(other.shear_exponent, 0.6);
+  EXPECT_EQ(other.poisson, 0.15);
+  EXPECT_EQ(other.overconsolidation, 2.0);
+  EXPECT_EQ(other.least_pressure, 50.0);
+  EXPECT_EQ(refusal(start), ": write exactly one of void_ratio and relative_density");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, e_max: 0.8"),
+            ".e_max: goes with relative_density; leave it out beside void_ratio");
+  EXPECT_EQ(refusal(start + ", relative_density: 0.5, e_max: 0.8"), ": the key 'e_min' is missing; add it");
+  EXPECT_EQ(refusal(start + ", relative_density: 0.5, e_max: 0.4, e_min: 0.8"),
+            ".e_min: 0.8 is not below e_max, 0.4: sand is densest at the least void ratio");
+  EXPECT_EQ(refusal(start + ", relative_density: 1.5, e_max: 0.8, e_min: 0.4"),
+            ".relative_density: relative density is 1.5; it must lie from 0, at e_max, to 1, at e_min");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0"), ".void_ratio: void ratio is 0; it must be positive and finite");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, poisson: 0.45"),
+            ".poisson: Poisson's ratio is 0.45; it must lie between -1 and 0.4, both excluded");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, shear_exponent: 1"),
+            ".shear_exponent: shear exponent is 1; it must lie from 0 to 0.9");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, H_psi: -5"), ".H_psi: H psi is -5; it must be finite and not negative");
+  EXPECT_EQ(refusal(start + ", void_ratio: 0.7, overconsolidation_ratio: 0.5"),
+            ".overconsolidation_ratio: overconsolidation ratio is 0.5; it must be finite and at least 1");
+  EXPECT_NE(refusal(start + ", void_ratio: 0.7, kappa: 0.1").find("kappa"), std::string::npos);
 }
 
 TEST(SceneMaterials, Fluid) {

@@ -50,24 +50,38 @@ void expect_said(const std::string& keys, const std::string& part, const char* s
 }
 
 // Plain FLIP leaves noise in soil that flows. What a scene names stays, and a part of PIC in the damping is the same.
-TEST(SceneMethod, SoilThatFlowsHasALittlePic) {
+TEST(SceneMethod, SoilThatFlowsHasALittleXpic) {
   const std::string sand =
       "geometry: plane_strain\n"
       "grid: {cell: 0.1, min: [0, 0], max: [1, 1]}\n"
       "materials: [{name: soft, density: 1600, law: drucker_prager, young: 1e6, poisson: 0.3, friction_angle: 30 "
       "deg}]\n"
       "bodies: [{name: block, material: soft, shape: {box: {min: [0.2, 0.2], max: [0.6, 0.6]}}}]\n";
-  const auto flip_of = [&](const std::string& section) {
+  const auto transfer_of = [&](const std::string& section) {
     const Transfer transfer = parse_scene(sand + section, "test.yaml").definition.method.transfer;
     EXPECT_EQ(transfer.kind, TransferKind::flip) << section;
-    return transfer.flip;
+    return transfer_text(transfer);
   };
   for (const char* section : {"", "method: auto\n", "method: {update: usf}\n", "method: {auto: {error: 10 %}}\n"}) {
-    EXPECT_EQ(flip_of(section), 0.98) << section;
+    EXPECT_EQ(transfer_of(section), "flip 0.6 and xpic 2 in one of 5 steps") << section;
   }
-  EXPECT_EQ(flip_of("method: {transfer: flip}\n"), 1.0);
-  EXPECT_EQ(flip_of("method: {damping: {pic: \"0.01*t\"}}\n"), 1.0);
+  EXPECT_EQ(transfer_of("method: {transfer: flip}\n"), "flip");
+  EXPECT_EQ(transfer_of("method: {transfer: {flip: 0.99}}\n"), "flip 0.99");
+  EXPECT_EQ(transfer_of("method: {damping: {pic: \"0.01*t\"}}\n"), "flip");
   EXPECT_EQ(method_of("update: usf").transfer.flip, 1.0);
+}
+
+TEST(SceneMethod, FlipIsMixedWithXpic) {
+  const Transfer transfer = method_of("transfer: {flip: 0.7, xpic: 3, every: 4}").transfer;
+  EXPECT_EQ(transfer.kind, TransferKind::flip);
+  EXPECT_EQ(transfer.flip, 0.7);
+  EXPECT_EQ(transfer.mixed, 3);
+  EXPECT_EQ(transfer.every, 4);
+  EXPECT_EQ(transfer_text(method_of("transfer: {flip: 0, every: 10}").transfer), "flip 0 in one of 10 steps");
+  expect_refused("transfer: {flip: 0.7, xpic: 0}", "transfer.xpic: order 0 is not possible;");
+  expect_refused("transfer: {flip: 0.7, every: 0}", "transfer.every: 0 is not possible;");
+  expect_refused("transfer: {flip: 0.7, fmpm: 2}", "transfer.fmpm: unknown key 'fmpm'");
+  expect_refused("transfer: {flip: 1, every: 2}, damping: {pic: 0.1}", "damping.pic: transfer says another part");
 }
 
 TEST(SceneMethod, EveryShapeAndItsOtherName) {

@@ -115,6 +115,45 @@ TEST(SoilSoftening, DilationEndsByItself) {
   EXPECT_NEAR(plastic_volume() - before, gained, 1e-3 * gained);
 }
 
+/// The same soil as one that keeps its strength and whose dilation ends at `rise` over `band`.
+LawDefinition rising(LawDefinition law, double rise, double band) {
+  auto* pyramid = std::get_if<MohrCoulombDefinition>(&law);
+  SoilSoftening& softening = pyramid ? pyramid->softening : std::get<DruckerPragerDefinition>(law).softening;
+  softening = {};
+  softening.rise = rise;
+  softening.band = band;
+  return law;
+}
+
+// Dilation that ends at a rise ends after the same slip of a band, and the band has gained the same thickness, however
+// wide the band on the grid is. A band is one piece of soil in simple shear under a pressure, held along x and y, whose
+// width is 50 or 25 mm: it rises by tan(psi) of its slip until nine tenths of the rise, and then nears the end. 0.1 %:
+// the end of an exponential; 2 %: elastic shear, 0.03 mm in the wider one.
+TEST(SoilSoftening, DilationEndsAtTheSameSlipInBandsOfTwoWidths) {
+  constexpr double kRise = 1e-3, kStep = 1e-4, kDilation = 15.0 * kDegree;
+  for (const LawDefinition& soil : soils(kDilation)) {
+    for (const double band : {0.05, 0.025}) {
+      PathDriver driver = confined(rising(soil, kRise, band));
+      const auto thickness = [&] {  // without elastic strain
+        return band * driver.point().j() * std::exp(-trace(driver.point().cauchy()) / (3.0 * kElasticity.bulk()));
+      };
+      const double start = thickness();
+      double slip = 0.0, before = 0.0, now = 0.0;
+      while (now < 0.9 * kRise && slip < 20.0 * kRise) {
+        before = now;
+        shear(driver, kStep / band, 20);
+        slip += kStep;
+        now = thickness() - start;
+      }
+      slip -= kStep * (now - 0.9 * kRise) / (now - before);
+      const double expected = 0.9 * kRise / std::tan(kDilation);
+      EXPECT_NEAR(slip, expected, 0.02 * expected) << soil.index() << ' ' << band;
+      shear(driver, 10.0 * kRise / band, 2000);
+      EXPECT_NEAR(band * (driver.point().j() - 1.0), kRise, 1e-3 * kRise) << soil.index() << ' ' << band;
+    }
+  }
+}
+
 // Cohesive soil that has lost its cohesion carries no tension: stretched beyond its peak it falls apart.
 TEST(SoilSoftening, TensionGoesWithTheCohesion) {
   for (const LawDefinition& law :

@@ -136,6 +136,11 @@ TEST(StudyMethods, CountedWorkIsThatOfTheSteps) {
   EXPECT_EQ(passes(UpdateScheme::usl, flip), 5);
   EXPECT_EQ(passes(UpdateScheme::usavg, flip), 6);
   EXPECT_EQ(passes(UpdateScheme::usavg, xpic3), 10);
+  Transfer mixed;
+  mixed.flip = 0.6;
+  mixed.mixed = 2;
+  mixed.every = 5;
+  EXPECT_EQ(passes(UpdateScheme::usf, mixed), 4.4);
   EXPECT_EQ(visits(ShapeKind::dirac, 3), 8);
   EXPECT_EQ(visits(ShapeKind::ugimp, 2), 9);
   EXPECT_EQ(visits(ShapeKind::bspline3, 3), 64);

@@ -95,7 +95,7 @@ bool is_grain(const MaterialPoint& point) { return std::holds_alternative<MuI>(p
 
 bool is_soil(const MaterialPoint& point) {
   return std::holds_alternative<DruckerPrager>(point.law()) || std::holds_alternative<MohrCoulomb>(point.law()) ||
-         is_grain(point);
+         std::holds_alternative<NorSand>(point.law()) || is_grain(point);
 }
 
 /// Whether the material has opened: it is then softer than its wave speed, which is that of closed material.
@@ -104,6 +104,7 @@ bool parted(const MaterialPoint& point) {
   if (std::holds_alternative<MohrCoulomb>(point.law())) return point.history(MohrCoulomb::kOpening) > 0.0;
   if (is_grain(point)) return point.history(MuI::kOpening) > 0.0;
   if (std::holds_alternative<CamClay>(point.law())) return point.history(CamClay::kOpening) > 0.0;
+  if (std::holds_alternative<NorSand>(point.law())) return point.history(NorSand::kOpening) > 0.0;
   return std::holds_alternative<NewtonianFluid>(point.law()) && point.j() > 1.0 && trace(point.tau()) == 0.0;
 }
 
@@ -118,7 +119,7 @@ TEST(WaveSpeed, IsThatOfTheElasticStateAtTheStart) {
     // Without tension there is no stress on one side of the start, so a slight pressure is applied.
     if (specimen.material.name == "free_surface_fluid") point.advance({-1e-5, 0, 0, 0, 0, 0, 0, 0, 0}, kLong);
     // Grain without cohesion has none without pressure, and that of clay has a corner there.
-    if (is_grain(point) || std::holds_alternative<CamClay>(point.law()))
+    if (is_grain(point) || std::holds_alternative<CamClay>(point.law()) || std::holds_alternative<NorSand>(point.law()))
       point.advance({-1e-3, 0, 0, 0, -1e-3, 0, 0, 0, -1e-3}, 1.0);
     const double found = fastest(point, probe_time(specimen), random, 50).elastic;
     // Differences of increments of 1e-6: second order where central, and round-off of 1e-16 / 1e-6.

@@ -67,10 +67,11 @@ class PointSolver {
   using Member = NodalField Grid::*;
 
   /// `fields` and `bodies` must outlive this object. `sharp`: whether points see that faces end (edge_cover.hpp).
-  PointSolver(Fields& fields, const std::vector<const RigidBody*>& bodies, ShapeKind shape, bool sharp, int threads)
+  PointSolver(Fields& fields, const std::vector<const RigidBody*>& bodies, GeometryKind geometry, ShapeKind shape,
+              bool sharp, int threads)
       : fields_(fields),
         bodies_(bodies),
-        edges_(bodies),
+        edges_(bodies, geometry, fields.front()->layout.smallest_cell()),
         sharp_(sharp),
         shape_(shape),
         threads_(threads),

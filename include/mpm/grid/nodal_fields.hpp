@@ -105,7 +105,7 @@ struct Grid {
   NodalField momentum;   ///< p_i as gathered, before conditions; valid until XPIC or the next gathering uses it [N s]
   NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
   NodalField force;      ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
-  NodalField increment;  ///< XPIC, FMPM: terms of the velocity that particles adopt; else empty [m/s]
+  NodalField increment;  ///< terms of the velocity that particles adopt, where they have any; else empty [m/s]
   NodalField place;      ///< near thin tools: sum of m S x, mass times centre of mass; else empty [kg m]
 };
 

@@ -2,6 +2,8 @@
 // a law is made from it.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -40,15 +42,24 @@ enum class ConeMatch { mohr_coulomb, plane_strain, compression, extension };
 /// loosest packing of most sands there is a fifth.
 constexpr double kDilationLimit = 0.1;
 
-/// How soil loses strength along a shear band, to its critical state (softening.hpp); angles in radians.
+/// How soil loses strength and dilation along a shear band, to its critical state: over displacements of the band,
+/// which are strains of the band as the grid resolves it (softening.hpp); angles in radians.
 struct SoilSoftening {
   double slip = 0.0;            ///< displacement along the band over which strength falls [m], > 0; 0: it does not fall
   double band = 0.0;            ///< width of a band as the grid resolves it, the edge of a cell [m], > 0
   double friction_angle = 0.0;  ///< residual [rad], in [0, peak]
   double cohesion = 0.0;        ///< residual [Pa], in [0, peak]
+  /// Displacement across the band, the thickness that it gains, at which dilation ends [m], > 0; infinite: at none.
+  double rise = std::numeric_limits<double>::infinity();
   bool falls() const { return slip > 0.0; }
   double strain() const { return slip / band; }  ///< plastic shear strain over which strength falls
+  /// Volume gained over initial volume at which dilation ends: where the band has risen, or at `limit`, which the state
+  /// of the soil sets, if that is less; so it is on a grid finer than the band in the soil.
+  double dilation_limit(double limit) const { return std::min(limit, rise / band); }
 };
+
+/// A band of sand is some 10 to 20 grains wide, 10 mm, and gains a tenth (kDilationLimit). [m]
+constexpr double kDilationRise = 1e-3;
 
 /// Drucker-Prager soil; angles in radians.
 struct DruckerPragerDefinition {
@@ -58,7 +69,7 @@ struct DruckerPragerDefinition {
   double cohesion = 0.0;         ///< [Pa], >= 0
   double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; negative: the cone's apex
   ConeMatch match = ConeMatch::mohr_coulomb;
-  double dilation_limit = kDilationLimit;  ///< volume gained over initial volume at which dilation ends, > 0
+  double dilation_limit = kDilationLimit;  ///< most volume gained, over initial volume, at which dilation ends, > 0
   SoilSoftening softening = {};
 };
 
@@ -97,6 +108,29 @@ struct CamClayDefinition {
   double overconsolidation = 0.0;  ///< size of the surface over that through the initial stress, >= 1; 0: unused
   double least_pressure = 0.0;     ///< p_r of K = v (p + p_r) / kappa [Pa], > 0
   double shear_over_bulk() const { return 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson); }
+};
+
+/// NorSand: sand that becomes stronger, stiffer and more dilatant with density, and less dilatant with pressure.
+struct NorSandDefinition {
+  double gamma = 0.0;               ///< void ratio of the critical state at 1 kPa; with an exponent, without pressure
+  double lambda = 0.0;              ///< its fall over ln p, or over (p / 100 kPa)^exponent, > 0
+  double critical_exponent = 0.0;   ///< xi, in (0, 1]; 0: the logarithm
+  double slope = 0.0;               ///< M in triaxial compression, > 0
+  double coupling = 0.0;            ///< N, in [0, 1)
+  double dilatancy = 0.0;           ///< chi: largest dilation over the state parameter at the peak, > 0
+  double hardening = 0.0;           ///< H_0, > 0
+  double hardening_of_state = 0.0;  ///< H_psi, >= 0: H = H_0 - H_psi psi, at least half of H_0
+  double shear_modulus = 0.0;       ///< G at 100 kPa [Pa], > 0
+  double shear_exponent = 0.5;      ///< n of G over pressure, in [0, 0.9]
+  double poisson = 0.2;             ///< in (-1, 0.5)
+  double void_ratio = 0.0;          ///< at the start, > 0
+  double overconsolidation = 1.0;   ///< size of the surface over that through the initial stress, >= 1
+  double least_pressure = 100.0;    ///< p_r, below which the sand softens no more [Pa], > 0
+  double shear_over_bulk() const { return 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson); }
+  /// Slope of the critical line over ln p, at 100 kPa.
+  double critical_slope() const { return critical_exponent > 0.0 ? lambda * critical_exponent : lambda; }
+  /// chi_i: chi over the state parameter at the image pressure.
+  double image_dilatancy() const { return dilatancy / (1.0 - dilatancy * critical_slope() / slope); }
 };
 
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain
@@ -162,7 +196,7 @@ struct StandardLinearSolidDefinition {
 using LawDefinition =
     std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
                  J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition,
-                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition>;
+                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition, NorSandDefinition>;
 
 struct MaterialDefinition {
   std::string name;

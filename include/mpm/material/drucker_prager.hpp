@@ -13,12 +13,12 @@
 // In triaxial compression and extension these are the cones matched there; in plane strain (no plastic strain along y)
 // s1 + s3 = 2/3 eta_bar sqrt(J2), and the dilation of the plane is psi.
 //
-// Dilation ends when the soil has gained a given volume, and its strength remains; or both fall together to those of
-// the critical state (softening.hpp; of a round cone, eta and xi c fall in a straight line). Plastic work has the mean
-// stress of a step (returned_work.hpp). Weak: no hardening; hypoelastic, meant for small elastic strain; with a slope
-// that follows the Lode angle, flow is not normal to the surface even if phi = psi, except in the states named above.
-// Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the surface is Mohr-Coulomb's
-// in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
+// Dilation ends when the soil, or a shear band in it, has gained a given volume, and its strength remains; or both fall
+// together to those of the critical state (softening.hpp; of a round cone, eta and xi c fall in a straight line).
+// Plastic work has the mean stress of a step (returned_work.hpp). Weak: no hardening; hypoelastic, meant for small
+// elastic strain; with a slope that follows the Lode angle, flow is not normal to the surface even if phi = psi, except
+// in the states named above. Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the
+// surface is Mohr-Coulomb's in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
 #pragma once
 
 #include <algorithm>

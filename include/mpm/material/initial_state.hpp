@@ -1,7 +1,7 @@
 // The initial state of a particle that is to start under a stress or at a temperature. The same Cauchy stress means the
 // same in every law; laws differ in the variables from which they compute it:
 //
-//   the stress itself    linear_elastic, drucker_prager, mohr_coulomb, mu_i, cam_clay: F = I
+//   the stress itself    linear_elastic, drucker_prager, mohr_coulomb, mu_i, cam_clay, norsand: F = I
 //   J and the stress     j2_plasticity, johnson_cook: pressure by a change of volume along the axes that can strain,
 //                        the deviator is carried
 //   J alone              newtonian_fluid, ideal_gas: pressure; a deviator cannot be carried
@@ -77,7 +77,7 @@ class InitialStates {
 };
 
 /// Ratio of horizontal to vertical stress at rest: 1 - sin(phi) for soils (Jaky 1944; mu_s for mu_i;
-/// times OCR^sin(phi) for cam_clay, Mayne & Kulhawy 1982), nu / (1 - nu) for
+/// times OCR^sin(phi) for cam_clay and norsand, Mayne & Kulhawy 1982), nu / (1 - nu) for
 /// elastic solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. No value for a gas, whose pressure
 /// at rest does not come from its weight.
 std::optional<double> pressure_at_rest(const LawDefinition& law);

@@ -27,12 +27,13 @@
 #include "mpm/material/mu_i.hpp"
 #include "mpm/material/neo_hookean.hpp"
 #include "mpm/material/newtonian_fluid.hpp"
+#include "mpm/material/norsand.hpp"
 #include "mpm/material/standard_linear_solid.hpp"
 
 namespace mpm {
 
 using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb, J2Plasticity, NewtonianFluid, IdealGas,
-                         StandardLinearSolid, JohnsonCook, MuI, CamClay>;
+                         StandardLinearSolid, JohnsonCook, MuI, CamClay, NorSand>;
 
 /// Makes the law of a material. @throws MaterialError as check() does
 Law make_law(const MaterialDefinition& material);

@@ -3,13 +3,13 @@
 // flow from the same f with the dilation angle, and normal to the cut-off. Elastic predictor in rate form (as
 // linear_elastic.hpp); its principal axes are kept and its principal values are returned to the surface in closed form:
 // to the main plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of
-// the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). Dilation ends when the soil
-// has gained a given volume, and its strength remains; or both fall together to those of the critical state
-// (softening.hpp). In a wide register, lanes that are certainly elastic are computed together and the others one by
-// one. Plastic work has the mean stress of a step (returned_work.hpp). Weak: no hardening; hypoelastic, meant for small
-// elastic strain; an opening is stored as a volume without direction, and only where no pressure remains: a crack in
-// soil under pressure along the crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen
-// (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
+// the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). Dilation ends when the
+// soil, or a shear band in it, has gained a given volume, and its strength remains; or both fall together to those of
+// the critical state (softening.hpp). In a wide register, lanes that are certainly elastic are computed together and
+// the others one by one. Plastic work has the mean stress of a step (returned_work.hpp). Weak: no hardening;
+// hypoelastic, meant for small elastic strain; an opening is stored as a volume without direction, and only where no
+// pressure remains: a crack in soil under pressure along the crack heals as it closes. Source: method reference 10.7;
+// de Souza Neto, Peric & Owen (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
 #pragma once
 
 #include <algorithm>

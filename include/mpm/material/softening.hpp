@@ -3,14 +3,18 @@
 // end the soil shears at constant volume and constant strength: its critical state.
 //
 // Softening gathers in a shear band, and a grid resolves a band in one cell, however thin the band in the soil is. Were
-// the fall tied to strain, the slip and the work that it takes would shrink with the cell. It is tied to the slip along
-// the band instead: strain over which strength falls = slip / width of the band on the grid, the edge of a cell. (Crack
-// band: Z. P. Bazant, B. H. Oh (1983), Materiaux et Constructions 16, 155-177; for slip in soil A. C. Palmer, J. R.
-// Rice (1973), Proc. R. Soc. A 332, 527-548.)
+// the fall tied to strain, the slip and the work that it takes would shrink with the cell. It is tied to displacements
+// of the band instead, by one rule: strain of a cell = displacement / width of the band on the grid, the edge of a
+// cell. Strength falls over a slip along the band. Dilation of soil whose strength stays ends at a rise across it: a
+// band of width w in the soil gains the volume limit w an area, and so does a band of width h on the grid in which
+// dilation ends at the volume limit w / h. (Crack band: Z. P. Bazant, B. H. Oh (1983), Materiaux et Constructions 16,
+// 155-177; for slip in soil A. C. Palmer, J. R. Rice (1973), Proc. R. Soc. A 332, 527-548; bands of 10 to 20 grains:
+// H.-B. Muehlhaus, I. Vardoulakis (1987), Geotechnique 37, 271-283.)
 //
 // Strength within a step is that of the plastic strain at its start, an error of the first order in the step. Weak:
-// where a band is wider than a cell, as one oblique to the grid, strength falls over a slip longer by its width in
-// cells; soil that softens without a band (in a specimen of one cell) too has the strain of a band of one cell.
+// where a band is wider than a cell, as one oblique to the grid (about two cells), strength falls over a slip longer by
+// its width in cells, and it rises by as much more; soil that softens or dilates without a band, all of it alike, too
+// has the strain of a band of one cell; on cells finer than the band in the soil nothing holds the band's width.
 #pragma once
 
 #include <cmath>

@@ -28,6 +28,12 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene);
 void read_damping(const Value& value, Scene& scene);
 /// `materials`
 void read_materials(const Map& root, Scene& scene);
+/// The constants of a law of `materials`, after `grid`
+Elasticity read_elasticity(const Map& map);
+LawDefinition read_drucker_prager(const Map& map, Scene& scene);
+LawDefinition read_mohr_coulomb(const Map& map, Scene& scene);
+/// The constants of a material whose `law` is norsand.
+LawDefinition read_norsand(const Map& map, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
 /// The `region` of a load or condition.

@@ -21,10 +21,14 @@ Moduli moduli(const IdealGasDefinition& law, double) {
 Moduli moduli(const JohnsonCookDefinition& law, double density) {
   return {density * law.pressure.sound_speed * law.pressure.sound_speed, law.shear_modulus};
 }
-// Without pressure; a face at clay under pressure is refused (simulation/boundary_modules.cpp).
+// Without pressure; a face at clay or norsand is refused (simulation/boundary_modules.cpp).
 Moduli moduli(const CamClayDefinition& law, double) {
   const double bulk = (1.0 + law.void_ratio) * law.least_pressure / law.kappa;
   return {bulk, law.shear_modulus > 0.0 ? law.shear_modulus : law.shear_over_bulk() * bulk};
+}
+Moduli moduli(const NorSandDefinition& law, double) {
+  const double shear = law.shear_modulus * std::pow(law.least_pressure / 1e5, law.shear_exponent);
+  return {shear / law.shear_over_bulk(), shear};
 }
 // A wave's front is faster than relaxation.
 Moduli moduli(const StandardLinearSolidDefinition& law, double) {

@@ -27,6 +27,9 @@ std::string transfer_label(const Transfer& transfer) {
   switch (transfer.kind) {
     case TransferKind::flip:
       if (transfer.flip == 1.0) return "flip";
+      if (transfer.mixes() || transfer.every > 1) {
+        return fmt::format("flip{:g}xpic{}every{}", transfer.flip, transfer.mixed, transfer.every);
+      }
       return transfer.flip == 0.0 ? "pic" : fmt::format("flip{:g}", transfer.flip);
     case TransferKind::apic:
       return "apic";

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/contact/thin_tool.hpp"
 #include "mpm/step/point_weights.hpp"
 
 namespace mpm {
@@ -16,7 +17,7 @@ constexpr double kLeastPart = 1e-3;    ///< cover of a node that counts
 constexpr double kWhole = 1.0 - 1e-6;  ///< part of a hat inside the edge that is all: round-off must not make an edge
 constexpr double kLeastFront = 5e-3;   ///< part of a hat in front of a face: splines reach nodes that have none
 constexpr double kHalf = 0.5;          ///< cover from which on a node decides with its whole weight
-constexpr double kFurther = 0.1;       ///< cells by which an edge acts further out than it lies
+constexpr double kFurther = 0.15;      ///< cells by which an edge acts further out than it lies
 constexpr double kThinnest = 1e-2;     ///< mass beyond an edge, over that of the node, from which on there is material
 
 /// Directions along the surface across the edges near a point, away from the face.
@@ -114,6 +115,13 @@ void add(const PointNode& added, PointNode* nodes, int& count) {
 
 }  // namespace
 
+EdgeCover::EdgeCover(const std::vector<const RigidBody*>& bodies, GeometryKind geometry, double cell)
+    : bodies_(bodies) {
+  for (const RigidBody* body : bodies) {
+    further_.push_back(has_sides(body->definition(), geometry, cell) ? 0.0 : kFurther);
+  }
+}
+
 EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const {
   const RigidBody& body = *bodies_[point.body];
   const GridLayout& layout = grid.layout;
@@ -134,7 +142,7 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
     for (int e = 0; e < edges.count; ++e) {
       const Vec3& across = edges.across[e];
       const double cell = edges.cell[e];
-      const double within = 1.0 + kFurther - beyond(body, place + cell * across, across) / cell;
+      const double within = 1.0 + further_[point.body] - beyond(body, place + cell * across, across) / cell;
       if (hat_part(within) >= kWhole) continue;
       const NodeRef further = nearest_node(grid, place + cell * across);
       if (further.block < 0 || (further.block == ref.block && further.node == ref.node)) continue;

@@ -28,7 +28,7 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
       with_pairs_(settings.with_pairs),
       gravity_(settings.gravity),
       search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads, settings.ranks),
-      solver_(fields, surfaces_, settings.shape, settings.sharp_edges, settings.threads),
+      solver_(fields, surfaces_, settings.geometry, settings.shape, settings.sharp_edges, settings.threads),
       free_(bodies_, settings.gravity) {
   for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
 }

@@ -25,19 +25,21 @@ void check(const MaterialDefinition& material, const Elasticity& elasticity) {
           fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.5, both excluded", poisson));
 }
 
-/// Checks how the strength of a soil falls. Strength that falls faster with strain than the soil unloads would be lost
-/// at once whatever the slip: c cos(phi) / G is the elastic shear strain that the loss of cohesion sets free. (What the
-/// loss of friction sets free depends on the pressure, which a material does not know.)
+/// Checks how strength and dilation of a soil fall. Strength that falls faster with strain than the soil unloads would
+/// be lost at once whatever the slip: c cos(phi) / G is the elastic shear strain that the loss of cohesion sets free.
+/// (What the loss of friction sets free depends on the pressure, which a material does not know.)
 template <class SoilDefinition>
 void check_softening(const MaterialDefinition& material, const SoilDefinition& law) {
   const SoilSoftening& fall = law.softening;
   require(fall.slip >= 0.0 && std::isfinite(fall.slip), material,
           fmt::format("softening slip is {:g} m; it must be positive and finite", fall.slip));
-  if (!fall.falls()) return;
+  require(fall.rise > 0.0, material, fmt::format("dilation rise is {:g} m; it must be positive", fall.rise));
+  if (!fall.falls() && std::isinf(fall.rise)) return;
   require(fall.band > 0.0 && std::isfinite(fall.band), material,
-          fmt::format("shear band is {:g} m; strength that falls over a slip needs the width of a shear band as the "
-                      "grid resolves it: write the edge of a cell",
+          fmt::format("shear band is {:g} m; strength that falls over a slip and dilation that ends at a rise need the "
+                      "width of a shear band as the grid resolves it: write the edge of a cell",
                       fall.band));
+  if (!fall.falls()) return;
   require(fall.friction_angle >= 0.0 && fall.friction_angle <= law.friction_angle, material,
           fmt::format("residual friction angle is {:g} degrees; it must lie from 0 to the friction angle, {:g}",
                       fall.friction_angle / kDegree, law.friction_angle / kDegree));
@@ -151,6 +153,31 @@ struct Checker {
     require(law.consolidation > 0.0 || (law.overconsolidation >= 1.0 && std::isfinite(law.overconsolidation)), material,
             fmt::format("overconsolidation ratio is {:g}; it must be finite and at least 1", law.overconsolidation));
   }
+  void operator()(const NorSandDefinition& law) const {
+    require_positive(law.gamma, material, "gamma", "");
+    require_positive(law.lambda, material, "lambda", "");
+    require(law.critical_exponent >= 0.0 && law.critical_exponent <= 1.0, material,
+            fmt::format("critical exponent is {:g}; it must lie above 0 and not above 1", law.critical_exponent));
+    require(law.slope > 0.0 && law.slope < 2.0, material,
+            fmt::format("M is {:g}; it must lie above 0 and below 2, a friction angle of 49 degrees", law.slope));
+    require(law.coupling >= 0.0 && law.coupling < 1.0, material,
+            fmt::format("N is {:g}; it must lie from 0 to below 1", law.coupling));
+    require_positive(law.dilatancy, material, "chi", "");
+    require(law.dilatancy * law.critical_slope() < 0.5 * law.slope, material,
+            fmt::format("chi is {:g}; chi times the slope of the critical line, {:g}, must be below half of M, {:g}",
+                        law.dilatancy, law.critical_slope(), law.slope));
+    require_positive(law.hardening, material, "H", "");
+    require_not_negative(law.hardening_of_state, material, "H psi", "");
+    require_positive(law.shear_modulus, material, "shear modulus", " Pa");
+    require(law.shear_exponent >= 0.0 && law.shear_exponent <= 0.9, material,
+            fmt::format("shear exponent is {:g}; it must lie from 0 to 0.9", law.shear_exponent));
+    require(law.poisson > -1.0 && law.poisson < 0.4, material,
+            fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.4, both excluded", law.poisson));
+    require_positive(law.void_ratio, material, "void ratio", "");
+    require(law.overconsolidation >= 1.0 && std::isfinite(law.overconsolidation), material,
+            fmt::format("overconsolidation ratio is {:g}; it must be finite and at least 1", law.overconsolidation));
+    require_positive(law.least_pressure, material, "least pressure", " Pa");
+  }
   void operator()(const J2PlasticityDefinition& law) const {
     check(material, law.elasticity);
     require_positive(law.yield_stress, material, "yield stress", " Pa");
@@ -200,6 +227,7 @@ struct Checker {
 
 struct Name {
   std::string operator()(const CamClayDefinition&) const { return "cam_clay"; }
+  std::string operator()(const NorSandDefinition&) const { return "norsand"; }
   std::string operator()(const MuIDefinition&) const { return "mu_i"; }
   std::string operator()(const LinearElasticDefinition&) const { return "linear_elastic"; }
   std::string operator()(const NeoHookeanDefinition&) const { return "neo_hookean"; }

@@ -60,7 +60,7 @@ DruckerPrager::DruckerPrager(const DruckerPragerDefinition& d, double density)
       sin_dilation_(std::sin(d.dilation_angle)),
       most_shear_(most_shear(sin_friction_)),
       most_dilation_shear_(most_shear(sin_dilation_)),
-      dilation_end_(d.dilation_limit),
+      dilation_end_(d.softening.dilation_limit(d.dilation_limit)),
       fall_(d.softening) {
   const Cone matched = cone(d);
   eta_ = matched.eta;

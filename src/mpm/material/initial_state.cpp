@@ -31,6 +31,7 @@ struct StressSourceOf {
   StressSource operator()(const MohrCoulomb&) const { return StressSource::stress; }
   StressSource operator()(const MuI&) const { return StressSource::stress; }
   StressSource operator()(const CamClay&) const { return StressSource::stress; }
+  StressSource operator()(const NorSand&) const { return StressSource::stress; }
   StressSource operator()(const J2Plasticity&) const { return StressSource::volume_and_stress; }
   StressSource operator()(const JohnsonCook&) const { return StressSource::volume_and_stress; }
   StressSource operator()(const NewtonianFluid&) const { return StressSource::volume; }
@@ -47,6 +48,7 @@ struct PoissonRatio {
   std::optional<double> operator()(const NewtonianFluidDefinition&) const { return std::nullopt; }
   std::optional<double> operator()(const IdealGasDefinition&) const { return std::nullopt; }
   std::optional<double> operator()(const JohnsonCookDefinition&) const { return std::nullopt; }
+  std::optional<double> operator()(const NorSandDefinition& d) const { return d.poisson; }
   std::optional<double> operator()(const CamClayDefinition& d) const {
     if (d.shear_modulus == 0.0) return d.poisson;
     return std::nullopt;
@@ -292,6 +294,10 @@ std::optional<double> pressure_at_rest(const LawDefinition& law) {
   if (const auto* clay = std::get_if<CamClayDefinition>(&law)) {
     const double sine = 3.0 * clay->slope / (6.0 + clay->slope);
     return (1.0 - sine) * std::pow(std::max(clay->overconsolidation, 1.0), sine);
+  }
+  if (const auto* sand = std::get_if<NorSandDefinition>(&law)) {
+    const double sine = 3.0 * sand->slope / (6.0 + sand->slope);
+    return (1.0 - sine) * std::pow(sand->overconsolidation, sine);
   }
   if (std::holds_alternative<IdealGasDefinition>(law)) return std::nullopt;
   const std::optional<double> poisson = std::visit(PoissonRatio(), law);

@@ -16,6 +16,7 @@ struct Maker {
   Law operator()(const JohnsonCookDefinition& d) const { return JohnsonCook(d, density); }
   Law operator()(const MuIDefinition& d) const { return MuI(d, density); }
   Law operator()(const CamClayDefinition& d) const { return CamClay(d, density); }
+  Law operator()(const NorSandDefinition& d) const { return NorSand(d, density); }
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombDefinition& d, double density)
       sin_friction_(std::sin(d.friction_angle)),
       sin_dilation_(std::sin(d.dilation_angle)),
       strength_(2.0 * d.cohesion * std::cos(d.friction_angle)),
-      dilation_end_(d.dilation_limit),
+      dilation_end_(d.softening.dilation_limit(d.dilation_limit)),
       fall_(d.softening) {
   const double apex =
       sin_friction_ > 0.0 ? d.cohesion / std::tan(d.friction_angle) : std::numeric_limits<double>::infinity();

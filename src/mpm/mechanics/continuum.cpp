@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "field_passes.hpp"
+#include "increments.hpp"
 
 namespace mpm {
 namespace {
@@ -29,10 +30,12 @@ class Continuum final : public Mechanics {
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        passes_(fields, settings.threads, settings.choice, settings.halo) {}
+        passes_(fields, settings.threads, settings.choice, settings.halo),
+        increments_(settings.threads) {}
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
+    turn_ = (turn_ + 1) % settings_.transfer.every;
     passes_.each_field([&](Field& field) { look_at(field); });
     passes_.spread({&Grid::mass, &Grid::momentum}, [&](Field& field, const Block& block) {
       kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
@@ -70,54 +73,15 @@ class Continuum final : public Mechanics {
     }
   }
 
-  int increments() const override { return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0; }
-
-  // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
-  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
-  // velocity of the step's start, FMPM with that of its end, in which conditions hold.
-  void begin_increments(StepContext&) override {
-    const bool from_start = settings_.transfer.kind == TransferKind::xpic;
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      grid.increment.resize(grid.blocks.size());
-      const int nodes = layout_.nodes_per_block();
-      passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
-        for (int k = 0; k < layout_.dim(); ++k) {
-          const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
-          grid.increment.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
-        }
-      });
-    }
+  int increments() const override {
+    if (settings_.transfer.mixes()) return turn_ == 0 ? settings_.transfer.mixed - 1 : 0;
+    return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0;
   }
-
-  void find_increment(StepContext&) override {
-    if (auto& patches = passes_.patches()) patches->grid.increment.resize(patches->grid.blocks.size());
-    passes_.take(&Grid::increment);
-    passes_.spread({&Grid::momentum}, [&](Field& field, const Block& block) {
-      Grid& grid = field.grid;
-      kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
-    });
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
-        for (int k = 0; k < layout_.dim(); ++k) {
-          const int i = k * layout_.nodes_per_block() + n;
-          grid.increment.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
-        }
-      });
-    }
-  }
-
-  void add_increment(StepContext&) override {
-    for (Field& field : passes_.fields()) {
-      Grid& grid = field.grid;
-      const std::ptrdiff_t count = layout_.dim() * layout_.nodes_per_block();
-      passes_.each_node_range(grid, [&](int first, int last) {
-        const double* from = grid.increment.block(first);
-        double* to = grid.velocity.block(first);
-        for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
-      });
-    }
+  void begin_increments(StepContext&) override { increments_.begin(passes_, settings_.transfer); }
+  void find_increment(StepContext&) override { increments_.find(passes_, kernels_); }
+  void add_increment(StepContext& context) override {
+    increments_.add(passes_);
+    if (settings_.transfer.mixes()) slip_energy_ -= increments_.accelerate(passes_, context.dt);
   }
 
   void move_particles(StepContext& context) override {
@@ -173,9 +137,13 @@ class Continuum final : public Mechanics {
     }
     if (settings_.damping != nullptr) report.add("damping", NamedEnergy::Kind::dissipated, drag_energy_);
   }
+  void hashed(std::vector<double>& numbers) const override {
+    if (settings_.transfer.every > 1) numbers.push_back(turn_);
+  }
   void serialise(StateArchive& archive) override {
     archive.generation("sorts_since", generation_);
     archive.sum("parts_when_sorted", parts_when_sorted_);
+    if (settings_.transfer.every > 1) archive.value("turn", turn_);
     archive.sum("slip_energy", slip_energy_);
     archive.sum("drag_energy", drag_energy_);
   }
@@ -208,7 +176,7 @@ class Continuum final : public Mechanics {
   }
 
   void move(StepContext& context, bool regather) {
-    mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
+    mpm_kernel::MoveSettings settings{context.dt, turn_ == 0 ? settings_.transfer.flip : 1.0, regather};
     settings.by_point = settings_.axis_motion == AxisMotion::point;
     settings.damped = look_at_damping(settings);
     settings.counted = motion_ == mpm_kernel::kIncrement && settings.flip != 1.0;
@@ -250,7 +218,7 @@ class Continuum final : public Mechanics {
   bool look_at_damping(mpm_kernel::MoveSettings& settings) {
     const DampingControl* damping = settings_.damping;
     if (damping == nullptr) return false;
-    settings.flip = damping->flip();
+    if (turn_ == 0) settings.flip = damping->flip();
     if (!damping->in_update() && !damping->needs_energy()) return false;
     passes_.each_field([&](Field& field) {
       for (int i = 0; i < field.count(); ++i) {
@@ -348,6 +316,8 @@ class Continuum final : public Mechanics {
   std::optional<ParticleRef> failed_;
   bool must_sort_ = false;
   Mixed mixed_;
+  Increments<T> increments_;
+  std::int32_t turn_ = 0;                         ///< steps since one in which the fraction of FLIP held
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]
   std::uint64_t generation_ = 0;                  ///< of the blocks that parts_when_sorted_ was counted with
   int parts_when_sorted_ = 0;

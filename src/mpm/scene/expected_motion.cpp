@@ -21,6 +21,7 @@ bool flows(const MaterialDefinition& material) {
          std::holds_alternative<MohrCoulombDefinition>(material.law) ||
          std::holds_alternative<MuIDefinition>(material.law) ||
          std::holds_alternative<CamClayDefinition>(material.law) ||
+         std::holds_alternative<NorSandDefinition>(material.law) ||
          std::holds_alternative<J2PlasticityDefinition>(material.law) ||
          std::holds_alternative<JohnsonCookDefinition>(material.law) ||
          std::holds_alternative<NewtonianFluidDefinition>(material.law) ||

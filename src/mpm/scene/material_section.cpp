@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
+
+Elasticity read_elasticity(const Map& map) {
+  return {map.at("young").number(kPressure), map.at("poisson").number(kPlain)};
+}
+
 namespace {
 
 constexpr double kGlassInertial = 0.279;  // I_0 of glass beads, Jop, Forterre & Pouliquen (2006)
@@ -24,87 +28,9 @@ const std::vector<Later>& later_keys() {
   return keys;
 }
 
-Elasticity read_elasticity(const Map& map) {
-  return {map.at("young").number(kPressure), map.at("poisson").number(kPlain)};
-}
-
 LawDefinition read_linear_elastic(const Map& map, Scene&) { return LinearElasticDefinition{read_elasticity(map)}; }
 
 LawDefinition read_neo_hookean(const Map& map, Scene&) { return NeoHookeanDefinition{read_elasticity(map)}; }
-
-/// Reads how a soil loses its strength along a shear band.
-template <class SoilDefinition>
-void read_softening(const Map& map, Scene& scene, SoilDefinition& law) {
-  const auto slip = map.find("softening_slip");
-  for (const char* key : {"residual_friction_angle", "residual_cohesion", "shear_band"}) {
-    if (slip || !map.find(key)) continue;
-    map.at(key).fail(
-        "strength that falls needs the slip along a shear band over which it does, since a grid resolves a band in a "
-        "cell, and with a strain the force would depend on the cell: write softening_slip");
-  }
-  if (!slip) return;
-  SoilSoftening& fall = law.softening;
-  fall.slip = slip->positive(kLength);
-  fall.friction_angle = law.friction_angle;
-  fall.cohesion = law.cohesion;
-  if (const auto friction = map.find("residual_friction_angle")) fall.friction_angle = friction->number(kAngle);
-  if (const auto cohesion = map.find("residual_cohesion")) fall.cohesion = cohesion->number(kPressure);
-  double cell = 0.0;  // the longest edge; 0 outside a scene
-  if (scene.definition.grid.cell.x() > 0.0) {
-    for (const int axis : axes_of(scene)) cell = std::max(cell, scene.definition.grid.cell[axis]);
-  }
-  const auto band = map.find("shear_band");
-  if (band) {
-    fall.band = band->positive(kLength);
-    if (fall.band < cell * (1.0 - 1e-9)) {
-      band->fail(fmt::format("{:g} m is narrower than a cell, {:g} m, in which the grid resolves a band; leave it out",
-                             fall.band, cell));
-    }
-  } else {
-    if (!(cell > 0.0)) slip->fail("without a grid the width of a shear band is not known; add shear_band");
-    fall.band = cell;
-  }
-  scene.choices.emplace_back(map.value().path() + ".softening_slip",
-                             fmt::format("{:g} m is a plastic shear strain of {:.3g} in a band {}{:g} m wide",
-                                         fall.slip, fall.strain(), band ? "" : "of one cell, ", fall.band));
-}
-
-/// Reads the constants that the laws of soil have in common.
-template <class SoilDefinition>
-SoilDefinition read_soil(const Map& map, Scene& scene) {
-  SoilDefinition law;
-  law.elasticity = read_elasticity(map);
-  law.friction_angle = map.at("friction_angle").number(kAngle);
-  if (const auto dilation = map.find("dilation_angle")) law.dilation_angle = dilation->number(kAngle);
-  if (const auto cohesion = map.find("cohesion")) law.cohesion = cohesion->number(kPressure);
-  read_softening(map, scene, law);
-  if (const auto limit = map.find("dilation_limit")) {
-    law.dilation_limit = limit->text() == "none" ? std::numeric_limits<double>::infinity() : limit->positive(kPlain);
-  } else if (law.softening.falls()) {
-    law.dilation_limit = std::numeric_limits<double>::infinity();  // it ends with the fall
-  } else if (law.dilation_angle > 0.0) {
-    scene.choices.emplace_back(
-        map.value().path() + ".dilation_limit",
-        fmt::format("{:g}: dilation ends when the volume has grown by that part", kDilationLimit));
-  }
-  if (const auto cutoff = map.find("tension_cutoff")) law.tension_cutoff = cutoff->non_negative(kPressure);
-  return law;
-}
-
-LawDefinition read_drucker_prager(const Map& map, Scene& scene) {
-  auto law = read_soil<DruckerPragerDefinition>(map, scene);
-  if (const auto match = map.find("match")) {
-    static constexpr std::array kMatches = {ConeMatch::mohr_coulomb, ConeMatch::plane_strain, ConeMatch::compression,
-                                            ConeMatch::extension};
-    law.match = kMatches.at(match->choice({"mohr_coulomb", "plane_strain", "compression", "extension"}));
-  } else {
-    scene.choices.emplace_back(map.value().path() + ".match",
-                               "mohr_coulomb: friction_angle is that of every state of stress");
-  }
-  return law;
-}
-
-LawDefinition read_mohr_coulomb(const Map& map, Scene& scene) { return read_soil<MohrCoulombDefinition>(map, scene); }
 
 LawDefinition read_mu_i(const Map& map, Scene& scene) {
   MuIDefinition law;
@@ -282,18 +208,22 @@ const std::vector<LawSection>& law_sections() {
       {"linear_elastic", {"young", "poisson"}, read_linear_elastic},
       {"neo_hookean", {"young", "poisson"}, read_neo_hookean},
       {"drucker_prager",
-       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff",
-        "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band", "match"},
+       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "dilation_rise", "cohesion",
+        "tension_cutoff", "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band", "match"},
        read_drucker_prager},
       {"mohr_coulomb",
-       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff",
-        "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band"},
+       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "dilation_rise", "cohesion",
+        "tension_cutoff", "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band"},
        read_mohr_coulomb},
       {"mu_i", {"young", "poisson", "mu_s", "mu_2", "I_0", "grain_diameter", "grain_density"}, read_mu_i},
       {"cam_clay",
        {"lambda", "kappa", "M", "void_ratio", "shear_modulus", "poisson", "preconsolidation_pressure",
         "overconsolidation_ratio", "least_pressure"},
        read_cam_clay},
+      {"norsand",
+       {"gamma", "lambda", "critical_exponent", "M", "N", "chi", "H", "H_psi", "shear_modulus", "shear_exponent",
+        "poisson", "void_ratio", "relative_density", "e_max", "e_min", "overconsolidation_ratio", "least_pressure"},
+       read_norsand},
       {"j2_plasticity",
        {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},
        read_j2_plasticity},

@@ -18,9 +18,15 @@ constexpr double kWholeCells = 1e-6;
 // Largest number of cells along an axis: node numbers have 32 bits, and there are layers around the domain.
 constexpr double kMostGridCells = 1e8;
 
-// Part of FLIP in soil that flows, of what columns that fall, discs that are pressed in and blades meet
+// The transfer of soil that flows, of what columns that fall, discs that are pressed in and blades meet
 // (doc/method_keys.md).
-constexpr double kFlipOfSoil = 0.98;
+const Transfer kTransferOfSoil = [] {
+  Transfer transfer;
+  transfer.flip = 0.6;
+  transfer.mixed = 2;
+  transfer.every = 5;
+  return transfer;
+}();
 
 Vec3 read_cell(const Value& value, const Scene& scene) {
   if (value.is_text()) return Vec3::Constant(value.positive(kLength));
@@ -75,6 +81,13 @@ Transfer read_transfer(const Value& value) {
     if (transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm) {
       value.fail(fmt::format("give its order, as in {{{}: 2}}", value.text()));
     }
+    return transfer;
+  }
+  if (value.is_map() && value.node()["flip"] && value.node().size() > 1) {
+    const Map map(value, {"flip", "xpic", "every"});
+    transfer.flip = map.at("flip").non_negative(kPlain);
+    if (const auto order = map.find("xpic")) transfer.mixed = order->integer();
+    if (const auto every = map.find("every")) transfer.every = every->integer();
     return transfer;
   }
   const auto [key, number] = only_key(value, {"flip", "xpic", "fmpm"});
@@ -195,9 +208,9 @@ void read_grid(const Map& root, Scene& scene) {
 
 /// Chooses a transfer, which the scene does not name, where plain FLIP would leave noise: where cracks grow and where
 /// soil flows, unless damping has a `part_of_pic` already. Returns whether it did.
-bool calm(bool cracks_grow, bool part_of_pic, Scene& scene) {
+bool calm(const Map& root, bool part_of_pic, Scene& scene) {
   Transfer& transfer = scene.definition.method.transfer;
-  if (cracks_grow) {
+  if (cracks_may_grow(root)) {
     transfer = Transfer{TransferKind::xpic, 1.0, 2};
     scene.choices.emplace_back("method.transfer",
                                "xpic 2: growing cracks set waves free, which flip leaves on the particles as noise");
@@ -206,23 +219,23 @@ bool calm(bool cracks_grow, bool part_of_pic, Scene& scene) {
   const auto& materials = scene.definition.materials;
   const auto soil = [](const auto& material) { return is_soil(make_law(material)); };
   if (part_of_pic || std::none_of(materials.begin(), materials.end(), soil)) return false;
-  transfer.flip = kFlipOfSoil;
-  scene.choices.emplace_back("method.transfer", fmt::format("flip {:g}: plain flip leaves noise in soil that flows, "
-                                                            "which shakes heaps and the force on tools",
-                                                            kFlipOfSoil));
+  transfer = kTransferOfSoil;
+  scene.choices.emplace_back(
+      "method.transfer",
+      fmt::format("{}: plain flip leaves noise in soil that flows, which shakes heaps and the force on tools",
+                  transfer_text(transfer)));
   return true;
 }
 
 std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   MethodDefinition& method = scene.definition.method;
   const auto section = root.find("method");
-  const bool grows = cracks_may_grow(root);
   if (!section || section->is_text()) {
     if (section) section->choice({"auto"});
     method.particles_per_direction = 2;
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
     AutoMethod all;
-    all.keep_transfer = calm(grows, false, scene);
+    all.keep_transfer = calm(root, false, scene);
     return all;
   }
   const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
@@ -246,7 +259,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   const auto transfer = map.find("transfer");
   const auto damping = map.find("damping");
   const bool part_of_pic = damping && damping->is_map() && damping->node()["pic"];
-  const bool kept = transfer.has_value() || calm(grows, part_of_pic, scene);
+  const bool kept = transfer.has_value() || calm(root, part_of_pic, scene);
   if (transfer) {
     method.transfer = read_transfer(*transfer);
   } else if (!kept && !chosen_later) {

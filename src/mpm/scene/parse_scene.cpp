@@ -53,6 +53,8 @@ std::string with_method(const YAML::Node& tree, const MethodDefinition& chosen) 
   if (transfer.kind == TransferKind::flip && transfer.flip != 1.0) {
     value = YAML::Node(YAML::NodeType::Map);
     value[kind] = fmt::format("{}", transfer.flip);
+    if (transfer.mixed != 1) value["xpic"] = transfer.mixed;
+    if (transfer.every != 1) value["every"] = transfer.every;
   } else if (transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm) {
     value = YAML::Node(YAML::NodeType::Map);
     value[kind] = transfer.order;

@@ -19,7 +19,8 @@ constexpr double kRoundOff = 1e-9;
 
 /// Laws whose stiffness is a constant of the material, and resists volume changes.
 bool has_own_stiffness(const LawDefinition& law) {
-  return !std::holds_alternative<IdealGasDefinition>(law) && !std::holds_alternative<CamClayDefinition>(law);
+  return !std::holds_alternative<IdealGasDefinition>(law) && !std::holds_alternative<CamClayDefinition>(law) &&
+         !std::holds_alternative<NorSandDefinition>(law);
 }
 
 void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {

@@ -243,6 +243,7 @@ std::uint64_t Simulation::state_hash() const {
     for (const NamedScalar& scalar : set.brought) add(scalar.values);
   }
   std::vector<double> numbers;
+  s.mechanics->hashed(numbers);
   for (const Module* module : s.modules.list()) module->hashed(numbers);
   for (const double number : numbers) hash.add(number);
   return s.over ? s.over->hash_of_all(hash.value()) : hash.value();

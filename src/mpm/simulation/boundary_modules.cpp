@@ -54,11 +54,12 @@ void add_absorbing(RunParts& parts) {
     std::vector<ElasticWaves> waves;
     for (const DeformableBody& body : definition.bodies) {
       const MaterialDefinition& material = find_material(definition, body);
-      if (std::holds_alternative<CamClayDefinition>(material.law)) {
+      if (std::holds_alternative<CamClayDefinition>(material.law) ||
+          std::holds_alternative<NorSandDefinition>(material.law)) {
         throw DefinitionError(fmt::format(
-            "boundaries.{}: an absorbing face has the waves of the undeformed material, but those of '{}' (cam_clay) "
+            "boundaries.{}: an absorbing face has the waves of the undeformed material, but those of '{}' ({}) "
             "follow its pressure; use fixed or slip farther away, or another law for the ground",
-            kWallNames[name], material.name));
+            kWallNames[name], material.name, law_name(material.law)));
       }
       waves.push_back(elastic_waves(material, definition.geometry));
     }

@@ -25,20 +25,28 @@ Fault shape_fault(const MethodDefinition& method, GeometryKind geometry) {
   return MethodFault{"shape", "qcpdi has the nine points of a parallelogram and is planar; use cpdi"};
 }
 
+Fault order_fault(const std::string& name, int order) {
+  if (order >= 1 && order <= kMostOrder) return {};
+  return MethodFault{"transfer." + name,
+                     fmt::format("order {} is not possible; write 1 (which is PIC) to {}", order, kMostOrder)};
+}
+
 Fault transfer_fault(const MethodDefinition& method) {
   const Transfer& transfer = method.transfer;
   switch (transfer.kind) {
     case TransferKind::flip:
-      if (transfer.flip >= 0.0 && transfer.flip <= 1.0) return {};
-      return MethodFault{"transfer.flip",
-                         fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
+      if (!(transfer.flip >= 0.0 && transfer.flip <= 1.0)) {
+        return MethodFault{"transfer.flip",
+                           fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
+      }
+      if (transfer.every < 1) {
+        return MethodFault{"transfer.every",
+                           fmt::format("{} is not possible; write 1, for all steps, or more", transfer.every)};
+      }
+      return order_fault("xpic", transfer.mixed);
     case TransferKind::xpic:
-    case TransferKind::fmpm: {
-      if (transfer.order >= 1 && transfer.order <= kMostOrder) return {};
-      const std::string name = kTransferNames[static_cast<int>(transfer.kind)];
-      return MethodFault{"transfer." + name, fmt::format("order {} is not possible; write 1 (which is PIC) to {}",
-                                                         transfer.order, kMostOrder)};
-    }
+    case TransferKind::fmpm:
+      return order_fault(kTransferNames[static_cast<int>(transfer.kind)], transfer.order);
     case TransferKind::apic:
       break;
   }
@@ -111,6 +119,10 @@ Fault pic_fault(const MethodDefinition& method) {
   if (method.transfer.kind != TransferKind::flip) {
     return MethodFault{"damping.pic", fmt::format("transfer {} has no part of PIC to change; use transfer flip",
                                                   kTransferNames[static_cast<int>(method.transfer.kind)])};
+  }
+  if (method.transfer.mixed != 1 || method.transfer.every != 1) {
+    return MethodFault{"damping.pic",
+                       "transfer says another part of PIC, by xpic or every; write transfer flip, or leave pic out"};
   }
   if (method.transfer.flip != 1.0) {
     return MethodFault{"damping.pic",

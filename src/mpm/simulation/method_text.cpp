@@ -12,6 +12,15 @@ std::string value_text(const Function& function, const char* unit) {
   return function.is_constant() ? fmt::format("{:g}{}", function(0.0), unit) : fmt::format("\"{}\"", function.text());
 }
 
+std::string mixture_text(const Transfer& transfer) {
+  const bool plain = transfer.mixed == 1 && transfer.every == 1;
+  if (plain && transfer.flip == 0.0) return "pic";
+  std::string text = fmt::format("flip {:g}", transfer.flip);
+  if (transfer.mixed > 1) text += fmt::format(" and xpic {}", transfer.mixed);
+  if (transfer.every > 1) text += fmt::format(" in one of {} steps", transfer.every);
+  return text;
+}
+
 void join(std::string& text, const std::string& part) { text += (text.empty() ? "" : ", ") + part; }
 
 }  // namespace
@@ -23,7 +32,7 @@ std::string transfer_text(const Transfer& transfer) {
   switch (transfer.kind) {
     case TransferKind::flip:
       if (transfer.flip == 1.0) return name;
-      return transfer.flip == 0.0 ? "pic" : fmt::format("{} {:g}", name, transfer.flip);
+      return mixture_text(transfer);
     case TransferKind::xpic:
     case TransferKind::fmpm:
       return fmt::format("{} {}", name, transfer.order);

@@ -62,6 +62,7 @@ struct PartsOf {
 
 Symmetric3<double> elastic_strain(const SetView& set, const ParticleView& particle) {
   if (const auto* clay = std::get_if<CamClay>(&set.law)) return clay->elastic_strain(particle.cauchy, particle.j);
+  if (const auto* sand = std::get_if<NorSand>(&set.law)) return sand->elastic_strain(particle.cauchy);
   if (set.parts == SetView::Parts::rate) {
     const double mean = trace(particle.cauchy) / 3.0;
     return scale_shift(particle.cauchy, 0.5 / set.shear, mean * (1.0 / (3.0 * set.bulk) - 0.5 / set.shear));

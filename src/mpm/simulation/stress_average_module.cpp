@@ -18,7 +18,8 @@ void add_stress_average(RunParts& parts) {
   if (sets.empty()) {
     if (!definition.method.average_stress) return;
     throw DefinitionError(
-        "method.average_stress: no body is of drucker_prager, mohr_coulomb or mu_i, or of j2_plasticity that does not "
+        "method.average_stress: no body is of drucker_prager, mohr_coulomb, mu_i or norsand, or of j2_plasticity that "
+        "does not "
         "expand with heat or moisture, whose stresses it averages; leave it out");
   }
   parts.modules.add(std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads, parts.halo));

@@ -7,10 +7,11 @@ constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * 
 
 }  // namespace
 
-int passes(UpdateScheme update, const Transfer& transfer) {
-  const int plain = update == UpdateScheme::usf ? 4 : update == UpdateScheme::usl ? 5 : 6;
+double passes(UpdateScheme update, const Transfer& transfer) {
+  const double plain = update == UpdateScheme::usf ? 4 : update == UpdateScheme::usl ? 5 : 6;
   const bool filtered = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
-  return plain + (filtered ? 2 * (transfer.order - 1) : 0);
+  if (transfer.mixes()) return plain + 2.0 * (transfer.mixed - 1) / transfer.every;
+  return plain + (filtered ? 2.0 * (transfer.order - 1) : 0.0);
 }
 
 int visits(ShapeKind shape, int dim) {
@@ -32,7 +33,7 @@ int visits(ShapeKind shape, int dim) {
 }
 
 double counted_work(const MethodDefinition& method, int dim) {
-  return static_cast<double>(visits(method.shape, dim) * passes(method.update, method.transfer));
+  return visits(method.shape, dim) * passes(method.update, method.transfer);
 }
 
 }  // namespace mpm::study

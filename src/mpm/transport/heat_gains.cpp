@@ -18,7 +18,7 @@ double bulk_modulus(const LawDefinition& law) {
         if constexpr (std::is_same_v<Kind, NewtonianFluidDefinition>) {
           return own.bulk_modulus;
         } else if constexpr (std::is_same_v<Kind, JohnsonCookDefinition> || std::is_same_v<Kind, IdealGasDefinition> ||
-                             std::is_same_v<Kind, CamClayDefinition>) {
+                             std::is_same_v<Kind, CamClayDefinition> || std::is_same_v<Kind, NorSandDefinition>) {
           return 0.0;
         } else {
           return own.elasticity.bulk();

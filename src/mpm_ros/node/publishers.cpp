@@ -16,7 +16,7 @@ Publishers::Publishers(ros::NodeHandle node, const std::vector<std::string>& bod
   publishers_[topics::kRunInfo] = node.advertise<RunInfo>(topics::kRunInfo, 1, true);
   publishers_[topics::kMarkers] = node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, 1, true);
   publishers_[topics::kSolverState] = node.advertise<SolverState>(topics::kSolverState, kSmall, true);
-  publishers_[topics::kForceMarkers] = node.advertise<visualization_msgs::MarkerArray>(topics::kForceMarkers, kLarge);
+  publishers_[topics::kForceMarkers] = node.advertise<visualization_msgs::MarkerArray>(topics::kForceMarkers, kSmall);
   publishers_[topics::kContactForces] = node.advertise<ContactForces>(topics::kContactForces, kSmall);
   publishers_[topics::kBodies] = node.advertise<BodyStates>(topics::kBodies, kSmall);
   publishers_[topics::kTf] = node.advertise<tf2_msgs::TFMessage>(topics::kTf, kSmall);

@@ -211,6 +211,12 @@ void PointContact::increment_found(StepContext&) {
     give(i, point.velocity, Vec3::Zero());
   }
   if (free) free_.finish();
+  // What the increments' impulses do at edges they do at the velocities of the step.
+  solver_.load(&Grid::velocity);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const PointSolver::Point& point = solver_.points()[i];
+    cut_ += point.impulse.dot(0.5 * (contacts_[i].cut + solver_.velocity_at(point) - solver_.carried_at(point)));
+  }
 }
 
 void PointContact::give(std::size_t i, const Vec3& velocity, const Vec3& mean_slip) {

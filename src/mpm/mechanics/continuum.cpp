@@ -78,10 +78,13 @@ class Continuum final : public Mechanics {
     return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0;
   }
   void begin_increments(StepContext&) override { increments_.begin(passes_, settings_.transfer); }
-  void find_increment(StepContext&) override { increments_.find(passes_, kernels_); }
+  void find_increment(StepContext& context) override {
+    increments_.find(passes_, kernels_);
+    if (settings_.transfer.mixes()) slip_energy_ -= increments_.work(passes_, context.dt);
+  }
   void add_increment(StepContext& context) override {
     increments_.add(passes_);
-    if (settings_.transfer.mixes()) slip_energy_ -= increments_.accelerate(passes_, context.dt);
+    if (settings_.transfer.mixes()) increments_.accelerate(passes_, context.dt);
   }
 
   void move_particles(StepContext& context) override {

@@ -46,6 +46,7 @@ class FieldPasses {
   }
 
   std::vector<Field>& fields() { return fields_; }
+  const std::vector<Field>& fields() const { return fields_; }
   /// Where particles choose a field at every node.
   std::optional<Field>& patches() { return patches_; }
 

@@ -118,7 +118,7 @@ class Passes {
           alignas(64) T mean[1][kBuffer];
           in.gather(means, mean);
           for (int q = 0; q < chunk.count; ++q) {
-            const T mass = kRings ? set.masses[chunk.first + q] : static_cast<T>(set.mass);
+            const T mass = weighs_each<kRings>(set) ? set.masses[chunk.first + q] : static_cast<T>(set.mass);
             Means::set_mean(stresses, q, -mass * mean[0][q]);
           }
         }

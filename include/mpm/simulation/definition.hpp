@@ -93,6 +93,10 @@ struct DeformableBody {
   std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
   double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
+  std::vector<double> parts;     ///< of it, that each particle has; empty where each has all of it
+  /// Distance of each particle's centre from the surface of the body beside it, over the reach of its box (or 1 away
+  /// from it): so far contact sees it reach. Empty where that is 1 for each.
+  std::vector<double> surfaces;
   std::optional<ParticleLattice> lattice;  ///< without it the grid's: particles_per_direction from grid.min on
   std::string filling;                     ///< what differs from the grid's lattice, for reports; may be empty
   std::optional<BodyPart> part;            ///< without it all particles of the body are here

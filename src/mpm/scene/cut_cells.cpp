@@ -12,8 +12,10 @@
 namespace mpm {
 namespace {
 
-constexpr double kWhole = 1e-9;     ///< of a place: a share is that near to none or all of it
-constexpr double kLeast = 0.1;      ///< of a place: what has a particle of its own wherever its centre is
+constexpr double kWhole = 1e-9;  ///< of a place: a share is that near to none or all of it
+/// Of a place: what has a particle of its own wherever its centre is. No round number, for where surfaces cut places by
+/// one, round-off would decide.
+constexpr double kLeast = 0.0957;
 constexpr double kSame = 1e-6;      ///< of a spacing: places that are equally near
 constexpr double kMostReach = 2.0;  ///< times that of a whole place
 
@@ -152,7 +154,9 @@ double Cutting::distance(const Vec3& point, Vec3& normal) const {
       if (axis == 2) continue;
       Vec3 low = point, high = point;
       low[axis] = std::max(point[axis] - 0.5 * lattices_[axis].spacing, bounds.min[axis]);
-      high[axis] = std::min(point[axis] + 0.5 * lattices_[axis].spacing, bounds.max[axis]);
+      // The map may have no height beyond its last point here, which counts as of the next of its cells.
+      high[axis] =
+          std::min(point[axis] + 0.5 * lattices_[axis].spacing, bounds.max[axis] - kSame * lattices_[axis].spacing);
       normal[axis] = -(height(high.x(), high.y()) - height(low.x(), low.y())) / (high[axis] - low[axis]);
     }
     const double length = normal.norm();

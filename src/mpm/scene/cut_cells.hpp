@@ -3,11 +3,11 @@
 // meets all at once.
 //
 // A particle whose place is cut has the volume of what lies in the body there, at that volume's centre. A place whose
-// own centre is outside has a particle, too, where a quarter of it or more lies in the body. Less than that goes to the
+// own centre is outside has a particle, too, where a tenth of it or more lies in the body. Less than that goes to the
 // particle beside it: one across a face before one across an edge before one across a corner, of these the nearest to
-// the part's centre, and in equal shares to those that are equally near. So volume and centre (and but for the parts'
-// own the second moments) are those of the shape, and no particle is much lighter than others. How far its centre is
-// from the surface is kept beside it, for contact. Private to this folder.
+// the part's centre, and in equal shares to those that are equally near. So volume, centre and second moments are those
+// of the shape, and no particle is lighter than a tenth of a whole one. How far its centre is from the surface is kept
+// beside it, for contact. Private to this folder.
 #pragma once
 
 #include <array>

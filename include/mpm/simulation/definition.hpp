@@ -72,6 +72,7 @@ struct GeostaticDefinition {
 struct BodyPart {
   std::vector<std::uint32_t> numbers;  ///< among all particles of the body, ascending; one for each position here
   std::uint64_t whole = 0;             ///< particles of the body on all ranks
+  bool cut = false;                    ///< the body has parts and surfaces, though this rank may have no particle of it
 };
 
 /// A lattice of particles that is a body's own: centre i along an axis is at origin + (i + 1/2) spacing.

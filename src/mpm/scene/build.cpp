@@ -124,6 +124,7 @@ DeformableBody fill(const BodyDefinition& body, const Filling& filling, OwnPart*
   }
   filled.part.emplace();
   filled.part->whole = part->whole(number);
+  filled.part->cut = filling.cuts();
   make_room(part->own(number));
   filled.part->numbers.reserve(part->own(number));
   std::uint32_t next = 0;

@@ -23,6 +23,9 @@ std::uint32_t number_of(const DeformableBody& body, std::size_t p) {
   return body.part ? body.part->numbers[p] : static_cast<std::uint32_t>(p);
 }
 
+/// The same on every rank, whether it has particles of the body or not.
+bool is_cut(const DeformableBody& body) { return !body.parts.empty() || (body.part && body.part->cut); }
+
 /// Over several ranks arrays get room for particles that come.
 struct Size {
   std::size_t particles, room;
@@ -67,11 +70,11 @@ void make_rings(const SimulationDefinition& definition, const DeformableBody& bo
   }
 }
 
-/// One scalar of the particles of a set. `factor`: of the given values.
+/// One scalar of the particles of a set. `factor`: of the given values, each of which is 1 where none are given.
 void fill_scalar(const std::vector<double>& values, double factor, const Size& size, Precision precision,
                  std::vector<ParticleScalar>& scalar) {
   scalar = size.zeros(1, precision);
-  for (std::size_t p = 0; p < values.size(); ++p) scalar[0].set(p, factor * values[p]);
+  for (std::size_t p = 0; p < size.particles; ++p) scalar[0].set(p, values.empty() ? factor : factor * values[p]);
 }
 
 /// @throws DefinitionError
@@ -146,12 +149,12 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   set.history = size.zeros(history_size(law), set.precision);
   if (axisymmetric(definition.geometry)) {
     make_rings(definition, body, material.density * body.particle_volume, layout, size, set);
-  } else if (body.parts.empty()) {
+  } else if (!is_cut(body)) {
     set.mass = material.density * body.particle_volume;
   } else {
     fill_scalar(body.parts, material.density * body.particle_volume, size, set.precision, set.masses);
   }
-  if (!body.surfaces.empty()) fill_scalar(body.surfaces, 1.0, size, set.precision, set.surface);
+  if (!body.surfaces.empty() || is_cut(body)) fill_scalar(body.surfaces, 1.0, size, set.precision, set.surface);
   if (definition.method.update != UpdateScheme::usf) {
     set.next_x.resize(dim);
     for (PaddedArray<double>& x : set.next_x) size.give(x);
@@ -185,6 +188,7 @@ void leave_own(SimulationDefinition& definition, const Communicator& ranks, cons
   for (DeformableBody& body : definition.bodies) {
     BodyPart own;
     own.whole = body.positions.size();
+    own.cut = !body.parts.empty();
     for (std::uint32_t p = 0; p < own.whole; ++p) {
       if (part.keeps(body.positions[p])) own.numbers.push_back(p);
     }

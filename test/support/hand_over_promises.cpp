@@ -152,6 +152,7 @@ std::vector<ParticleSet> dealt(int rank, int ranks, const GridLayout& layout) {
     if (s == 0) {
       set.history = scalars(3);
       set.masses = scalars(1);
+      set.surface = scalars(1);
       set.affine = scalars(4);
       set.domain = scalars(4);
       set.start_x = doubles();

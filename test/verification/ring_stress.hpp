@@ -20,22 +20,22 @@ struct SteadyDisk {
   double hoop(double r) const { return 1e-3 * scale() * ((3.0 + ratio) - (1.0 + 3.0 * ratio) * r * r); }  // [kPa]
 };
 
-/// Stress in rings about the centre, the mean over a turn: the disk also swings along its radius.
+/// Stress in rings about the centre, the mean by mass over a turn: the disk also swings along its radius.
 class RingStress {
  public:
   static constexpr int kRings = 10;
   void add(const mpm::Simulation& simulation) {
     const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
     const std::vector<double> sxx = field(simulation, "sxx"), szz = field(simulation, "szz");
-    const std::vector<double> sxz = field(simulation, "sxz");
+    const std::vector<double> sxz = field(simulation, "sxz"), mass = field(simulation, "mass");
     for (std::size_t p = 0; p < x.size(); ++p) {
       const double r2 = x[p] * x[p] + z[p] * z[p], r = std::sqrt(r2);
       const int ring = std::min(kRings - 1, static_cast<int>(r * kRings));
       const double radial = (x[p] * x[p] * sxx[p] + 2.0 * x[p] * z[p] * sxz[p] + z[p] * z[p] * szz[p]) / r2;
-      count_[ring] += 1.0;
-      radius_[ring] += r;
-      radial_[ring] += radial;
-      hoop_[ring] += sxx[p] + szz[p] - radial;
+      mass_[ring] += mass[p];
+      radius_[ring] += mass[p] * r;
+      radial_[ring] += mass[p] * radial;
+      hoop_[ring] += mass[p] * (sxx[p] + szz[p] - radial);
     }
   }
   Numbers radius() const { return mean(radius_, 1.0); }
@@ -50,23 +50,23 @@ class RingStress {
     }
     return 100.0 * worst / exact.radial(0.0);
   }
-  /// Mean of radial + hoop stress over the disk [kPa].
+  /// Mean of radial + hoop stress over the disk by mass [kPa].
   double mean_sum() const {
-    double sum = 0.0, count = 0.0;
+    double sum = 0.0, mass = 0.0;
     for (int i = 0; i < kRings; ++i) {
       sum += radial_[i] + hoop_[i];
-      count += count_[i];
+      mass += mass_[i];
     }
-    return 1e-3 * sum / count;
+    return 1e-3 * sum / mass;
   }
 
  private:
   Numbers mean(const Numbers& sum, double factor) const {
     Numbers values;
-    for (int i = 0; i < kRings; ++i) values.push_back(factor * sum[i] / count_[i]);
+    for (int i = 0; i < kRings; ++i) values.push_back(factor * sum[i] / mass_[i]);
     return values;
   }
-  Numbers count_ = Numbers(kRings), radius_ = Numbers(kRings), radial_ = Numbers(kRings), hoop_ = Numbers(kRings);
+  Numbers mass_ = Numbers(kRings), radius_ = Numbers(kRings), radial_ = Numbers(kRings), hoop_ = Numbers(kRings);
 };
 
 }  // namespace verification

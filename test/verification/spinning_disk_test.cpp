@@ -18,11 +18,12 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRate = 2.0 * kPi;                // [rad/s]
 const SteadyDisk kDisk{1000.0, kRate, 0.3 / 0.7};  // numbers of the scene; n above
 
-double angular_momentum(const mpm::Simulation& simulation) {  // over the mass of a particle
+double angular_momentum(const mpm::Simulation& simulation) {
   const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
   const std::vector<double> vx = field(simulation, "vx"), vz = field(simulation, "vz");
+  const std::vector<double> mass = field(simulation, "mass");
   double sum = 0.0;
-  for (std::size_t p = 0; p < x.size(); ++p) sum += z[p] * vx[p] - x[p] * vz[p];
+  for (std::size_t p = 0; p < x.size(); ++p) sum += mass[p] * (z[p] * vx[p] - x[p] * vz[p]);
   return sum;
 }
 

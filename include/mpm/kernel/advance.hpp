@@ -15,7 +15,8 @@
 
 namespace mpm {
 
-template <class T, int Dim, mpm_kernel::Motion Kind, bool Rings>
+/// `Weighed`: some particles have masses of their own.
+template <class T, int Dim, mpm_kernel::Motion Kind, bool Rings, bool Weighed>
 class Advance {
   using W = Wide<T>;
 
@@ -47,7 +48,7 @@ class Advance {
 
   /// What damping and PIC took, if they were counted.
   void add_to(mpm_kernel::Moved& moved) const {
-    const double mass = Rings ? 1.0 : set_.mass;  // rings have been weighed one by one
+    const double mass = Weighed && weighs_each<Rings>(set_) ? 1.0 : set_.mass;  // or they were weighed one by one
     for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * mass;
     moved.slip_energy += 0.5 * total(slip_work_) * mass;
     moved.drag_energy += 0.5 * total(drag_work_) * mass;
@@ -90,10 +91,12 @@ class Advance {
     own_square_ += weigh(p, lanes, own * own);
     return drag;
   }
-  // A term of a sum over particles of mass 1, or rings of their own; lanes beyond the last particle give nothing.
+  // A term of a sum over particles of mass 1, or of masses of their own; lanes beyond the last particle give nothing.
   W weigh(int p, int lanes, W x) const {
     const auto there = WideMask<T>::first(lanes);
-    if constexpr (Rings) return select(there, mass_of<true>(set_, p, lanes) * x, W(0.0));
+    if constexpr (Weighed) {
+      if (weighs_each<Rings>(set_)) return select(there, mass_of<true>(set_, p, lanes) * x, W(0.0));
+    }
     return select(there, x, W(0.0));
   }
 

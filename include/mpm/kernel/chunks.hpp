@@ -8,14 +8,17 @@
 
 namespace mpm {
 
-/// Masses of particles [p, p + lanes): one for all of a body, or, of rings about an axis, each its own.
+/// Whether particles of a set have masses of their own: rings about an axis have, and others where their body's surface
+/// cuts cells.
+template <bool Rings, class T>
+bool weighs_each(const mpm_kernel::SetView<T>& set) {
+  return Rings || set.masses != nullptr;
+}
+
+/// Masses of particles [p, p + lanes): one for all of a body, or each its own.
 template <bool Rings, class T>
 Wide<T> mass_of(const mpm_kernel::SetView<T>& set, int p, int lanes) {
-  if constexpr (Rings) {
-    return Wide<T>::load_first(set.masses + p, lanes);
-  } else {
-    return Wide<T>(set.mass);
-  }
+  return weighs_each<Rings>(set) ? Wide<T>::load_first(set.masses + p, lanes) : Wide<T>(set.mass);
 }
 
 template <class T>

@@ -70,7 +70,7 @@ struct SetView {
   const std::uint32_t* group;            ///< first particle of each group, and one past the last
   const std::uint32_t* group_begin;      ///< first group of each owner, and one past the last
   double mass;                           ///< of a particle [kg]
-  const T* masses;                       ///< of each, where a particle is a ring about the axis [kg]
+  const T* masses;                       ///< of each, where they differ [kg]; else null
   double half[3];                        ///< half of its box [cells]
   bool whole_domains, planar_functions;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
   double lowest[3], highest[3];          ///< where a centre may be [cells]

@@ -118,7 +118,7 @@ class Passes {
           alignas(64) T mean[1][kBuffer];
           in.gather(means, mean);
           for (int q = 0; q < chunk.count; ++q) {
-            const T mass = kRings ? set.masses[chunk.first + q] : static_cast<T>(set.mass);
+            const T mass = weighs_each<kRings>(set) ? set.masses[chunk.first + q] : static_cast<T>(set.mass);
             Means::set_mean(stresses, q, -mass * mean[0][q]);
           }
         }
@@ -161,9 +161,20 @@ class Passes {
     tile.template add_to<1>(to, block, 0);
   }
 
+  // Two functions, so that the loop of particles that weigh alike has no part of the other, which would change its
+  // rounding.
   template <mpm_kernel::Motion Kind>
   static mpm_kernel::Moved move(const GridView& grid, const BlockView& given, const Set* sets, int count,
-                                const mpm_kernel::MoveSettings& settings_view) {
+                                const mpm_kernel::MoveSettings& settings) {
+    for (int s = 0; s < count; ++s) {
+      if (weighs_each<kRings>(sets[s])) return move_sets<Kind, true>(grid, given, sets, count, settings);
+    }
+    return move_sets<Kind, kRings>(grid, given, sets, count, settings);
+  }
+
+  template <mpm_kernel::Motion Kind, bool Weighed>
+  static mpm_kernel::Moved move_sets(const GridView& grid, const BlockView& given, const Set* sets, int count,
+                                     const mpm_kernel::MoveSettings& settings_view) {
     constexpr bool kAffine = Kind == mpm_kernel::kAffine;
     constexpr int kFields = Kind == mpm_kernel::kIncrement ? 2 * kDim : kDim;  // velocity, acceleration
     constexpr int kAcceleration = kFields - kDim;                              // the first of it, if it is there
@@ -180,7 +191,7 @@ class Passes {
     mpm_kernel::Moved moved{false, false, 0, 0};
     each_set<Interpolator>(grid, block, sets, count, [&](Interpolator& in, const Set& set, int) {
       const Reach<T, kDim, Interpolator::kNodes> reach(grid, block, set);
-      Advance<T, kDim, Kind, kRings> advance(set, settings);
+      Advance<T, kDim, Kind, kRings, Weighed> advance(set, settings);
       WideMask<T> inside = reach.everywhere(), tight = inside;
       const auto advance_all = [&](auto counted, auto damped, const ParticleChunk& chunk) {
         WideMask<T> still_inside = inside, still_tight = tight;

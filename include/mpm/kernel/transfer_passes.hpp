@@ -152,11 +152,9 @@ class TransferPasses {
   // Numbers of a register of the chunk's particles, rounded to what particles carry.
   static W give(const Set& set, const double* from, const ParticleChunk& chunk, int q, bool by_mass) {
     const int p = chunk.first + q, lanes = chunk.count - q;
-    const W number(W::B::place(from + p, lanes, 0.0, by_mass && !kRings ? set.mass : 1.0, 0.0));
-    if constexpr (kRings) {
-      if (by_mass) return number * mass_of<true>(set, p, lanes);
-    }
-    return number;
+    const bool each = weighs_each<kRings>(set);
+    const W number(W::B::place(from + p, lanes, 0.0, by_mass && !each ? set.mass : 1.0, 0.0));
+    return by_mass && each ? number * mass_of<true>(set, p, lanes) : number;
   }
   static void take(const T* from, const ParticleChunk& chunk, double* to) {
     for (int q = 0; q < chunk.count; ++q) to[chunk.first + q] = static_cast<double>(from[q]);

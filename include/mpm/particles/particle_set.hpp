@@ -1,5 +1,5 @@
 // The particles of one deformable body: a structure of arrays, of one material, kept sorted by grid block. All have the
-// same mass, except in axisymmetric scenes, where each ring has its own.
+// same mass, except in axisymmetric scenes, where each ring has its own, and where a curved surface cuts their places.
 //
 // Only what the scene needs is stored: the history variables of the law; a second position when strain is updated after
 // the motion; a domain when the shape function follows the deformation; an affine matrix for APIC; the position at the
@@ -47,13 +47,14 @@ struct ParticleSet {
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
-  PaddedArray<std::uint32_t> id;             ///< unique within the whole run
-  std::vector<PaddedArray<double>> x;        ///< position, along grid axes [m]
-  std::vector<ParticleScalar> v;             ///< velocity [m/s]
-  std::vector<ParticleScalar> f;             ///< deformation gradient, stored components
-  std::vector<ParticleScalar> tau;           ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
-  std::vector<ParticleScalar> history;       ///< history variables of the law
-  std::vector<ParticleScalar> masses;        ///< in axisymmetric scenes one scalar, the mass of the ring [kg]
+  PaddedArray<std::uint32_t> id;        ///< unique within the whole run
+  std::vector<PaddedArray<double>> x;   ///< position, along grid axes [m]
+  std::vector<ParticleScalar> v;        ///< velocity [m/s]
+  std::vector<ParticleScalar> f;        ///< deformation gradient, stored components
+  std::vector<ParticleScalar> tau;      ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
+  std::vector<ParticleScalar> history;  ///< history variables of the law
+  std::vector<ParticleScalar> masses;   ///< where they differ one scalar: of rings, and of a body with cut places [kg]
+  std::vector<ParticleScalar> surface;  ///< of a body with cut places one scalar: reach over that of the box
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
@@ -107,7 +108,7 @@ struct ParticleSet {
   template <class Visit>
   void each_scalar(Visit&& visit) {
     for (auto& scalar : x) visit(scalar);
-    for (auto* fields : {&v, &f, &tau, &history, &masses, &affine}) {
+    for (auto* fields : {&v, &f, &tau, &history, &masses, &surface, &affine}) {
       for (ParticleScalar& scalar : *fields) scalar.visit(visit);
     }
     for (auto& scalar : start_x) visit(scalar);

@@ -72,6 +72,7 @@ struct GeostaticDefinition {
 struct BodyPart {
   std::vector<std::uint32_t> numbers;  ///< among all particles of the body, ascending; one for each position here
   std::uint64_t whole = 0;             ///< particles of the body on all ranks
+  bool cut = false;                    ///< the body has parts and surfaces, though this rank may have no particle of it
 };
 
 /// A lattice of particles that is a body's own: centre i along an axis is at origin + (i + 1/2) spacing.
@@ -93,6 +94,10 @@ struct DeformableBody {
   std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
   double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
+  std::vector<double> parts;     ///< of it, that each particle has; empty where each has all of it
+  /// Distance of each particle's centre from the surface of the body beside it, over the reach of its box (or 1 away
+  /// from it): so far contact sees it reach. Empty where that is 1 for each.
+  std::vector<double> surfaces;
   std::optional<ParticleLattice> lattice;  ///< without it the grid's: particles_per_direction from grid.min on
   std::string filling;                     ///< what differs from the grid's lattice, for reports; may be empty
   std::optional<BodyPart> part;            ///< without it all particles of the body are here

@@ -145,7 +145,8 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
     const double closing = approach.dot(point.normal);
     const double seen_from = watched + std::max(closing, 0.0);
     if (surface.distance - farthest > seen_from) return;
-    const double half_width = particle_reach<Geometry>(set, layout, p, point.normal);
+    const double box = particle_reach<Geometry>(set, layout, p, point.normal);
+    const double half_width = set.surface.empty() ? box : box * set.surface[0][p];
     if (surface.distance - half_width > seen_from) return;
     const double reach = half_width * (1.0 - edge_part(body, geometry_, centre, surface, 0.5 * half_width));
     point.gap = surface.distance - reach;
@@ -159,7 +160,7 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
     double volume = stretch_of_section<Geometry>(set, p) * across_;
     for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
     if (axisymmetric(geometry_)) volume *= kTurn * centre.x();
-    point.area = volume / (2.0 * half_width);
+    point.area = volume / (2.0 * box);
     found.push_back(point);
   };
   const int owner = fields_[job.field]->first_owner + job.owner;

@@ -103,22 +103,35 @@ DeformableBody fill(const BodyDefinition& body, const Filling& filling, OwnPart*
   filled.particle_volume = filling.particle_volume();
   filled.lattice = filling.lattice();
   filled.filling = filling.text();
+  const auto add = [&](const FilledPlace& place) {
+    filled.positions.push_back(place.centre);
+    if (!filling.cuts()) return;
+    filled.parts.push_back(place.part);
+    filled.surfaces.push_back(place.surface);
+  };
+  const auto make_room = [&](std::size_t particles) {
+    filled.positions.reserve(particles);
+    if (!filling.cuts()) return;
+    filled.parts.reserve(particles);
+    filled.surfaces.reserve(particles);
+  };
   // Counted first, because a growing list needs up to three times its memory.
   if (part == nullptr) {
-    filled.positions.reserve(filling.places());
-    filling.each([&](const Vec3& point) { filled.positions.push_back(point); });
+    make_room(filling.places());
+    filling.each(add);
     filling.check_left(filled.positions.size());
     return filled;
   }
   filled.part.emplace();
   filled.part->whole = part->whole(number);
-  filled.positions.reserve(part->own(number));
+  filled.part->cut = filling.cuts();
+  make_room(part->own(number));
   filled.part->numbers.reserve(part->own(number));
   std::uint32_t next = 0;
-  filling.each([&](const Vec3& point) {
+  filling.each([&](const FilledPlace& place) {
     const std::uint32_t own = next++;
-    if (!part->keeps(point)) return;
-    filled.positions.push_back(point);
+    if (!part->keeps(place.centre)) return;
+    add(place);
     filled.part->numbers.push_back(own);
   });
   return filled;
@@ -197,9 +210,9 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks, const std::f
     FillingChecks checks(body, scene, half_spacing);
     if (part) {
       part->begin_body();
-      fillings.back().each([&](const Vec3& point) {
-        part->count(point);
-        checks.look(point);
+      fillings.back().each([&](const FilledPlace& place) {
+        part->count(place.centre);
+        checks.look(place.centre);
       });
       fillings.back().check_left(part->whole(fillings.size() - 1));
       checks.end();

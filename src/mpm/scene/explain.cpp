@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/sections.hpp"
@@ -74,11 +75,14 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
       const auto count = static_cast<double>(body.positions.size());
       particles += count;
       double lengths = count;  // lengths of the rings; their number in other geometries
+      const auto part = [&](std::size_t p) { return body.parts.empty() ? 1.0 : body.parts[p]; };
+      if (!body.parts.empty()) lengths = std::accumulate(body.parts.begin(), body.parts.end(), 0.0);
       if (axisymmetric(built.geometry)) {
         const double half = 0.5 * (body.lattice ? body.lattice->spacing.x() : particle_spacing(scene, 0));
         const bool whole = built.method.axis.domains == AxisDomains::whole;
         lengths = 0.0;
-        for (const Vec3& place : body.positions) lengths += ring_length(place.x(), half, whole);
+        for (std::size_t p = 0; p < body.positions.size(); ++p)
+          lengths += part(p) * ring_length(body.positions[p].x(), half, whole);
       }
       text += fmt::format("body {}: {:.0f} particles of {} ({}), {:.6g} kg{}\n", body.name, count, material.name,
                           law_name(material.law), lengths * body.particle_volume * material.density,

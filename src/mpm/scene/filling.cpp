@@ -65,14 +65,15 @@ bool StandingTool::may_hold(const Vec3& place, double reach) const {
 }
 
 Filling::Filling(const BodyDefinition& body, const Scene& scene, const std::function<bool()>& interrupt)
-    : body_(&body),
+    : check_stop_(interrupt, "the bodies were filled with particles"),
+      body_(&body),
       scene_(&scene),
       axes_(axes_of(scene)),
-      lattices_(body_lattice(body, scene)),
-      check_stop_(interrupt, "the bodies were filled with particles") {
+      lattices_(body_lattice(body, scene)) {
   for (const int axis : axes_) volume_ *= lattices_[axis].spacing;
   volume_ *= scene.definition.across();
-  each_place([this](const Vec3&) { ++places_; });
+  if (!(body.jitter > 0.0)) cut_ = CutCells(body.region, scene, lattices_, check_stop_);
+  each_place([this](const FilledPlace&) { ++places_; });
   if (places_ == 0) {
     throw SceneError(
         fmt::format("{}: body '{}' holds no particle; make it larger or grid.cell smaller", body.where, body.name));
@@ -145,8 +146,10 @@ void Filling::share_volume() {
   const bool rings = axisymmetric(scene_->definition.geometry);
   const bool whole = scene_->definition.method.axis.domains == AxisDomains::whole;
   const double half = 0.5 * lattices_[0].spacing;
-  if (rings || !cut_out_.empty()) {
-    each([&](const Vec3& place) { filled += rings ? ring_length(place.x(), half, whole) : 1.0; });
+  if (rings || cuts() || !cut_out_.empty()) {
+    each([&](const FilledPlace& place) {
+      filled += place.part * (rings ? ring_length(place.centre.x(), half, whole) : 1.0);
+    });
   } else {
     filled = static_cast<double>(places_);
   }
@@ -191,6 +194,7 @@ bool Filling::is_cut_out(const Vec3& place) const {
 
 bool Filling::has_neighbour(const Vec3& place, int axis, bool above) const {
   Vec3 beside = Vec3::Zero();
+  std::array<std::int64_t, 3> numbers{};
   for (int k = 0; k < 3; ++k) {
     const Lattice& along = lattices_[k];
     const bool flat = !(along.spacing > 0.0);
@@ -199,8 +203,10 @@ bool Filling::has_neighbour(const Vec3& place, int axis, bool above) const {
     if (k == axis) number += above ? 1 : -1;
     if (number < along.first || number > along.last) return false;
     beside[k] = along.center(number);
+    numbers[k] = number;
   }
-  return body_->region.contains(beside) && !is_cut_out(beside);
+  const auto [i, j, k] = numbers;
+  return (cut_.holds(i, j, k) || body_->region.contains(beside)) && !is_cut_out(cut_.at(beside, i, j, k).centre);
 }
 
 FillingChecks::FillingChecks(const BodyDefinition& body, const Scene& scene, double half_spacing)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "body_lattice.hpp"
+#include "cut_cells.hpp"
 #include "mpm/math/stopped.hpp"
 #include "mpm/scene/scene.hpp"
 
@@ -39,6 +40,7 @@ class Filling {
   Filling(const BodyDefinition& body, const Scene& scene, const std::function<bool()>& interrupt);
 
   double particle_volume() const { return volume_; }  ///< [m^3], as DeformableBody::particle_volume
+  bool cuts() const { return !cut_.empty(); }         ///< some particles have a part of it, or more
   /// Where it is not the grid's.
   std::optional<ParticleLattice> lattice() const;
   /// How the particles differ from those of the grid's lattice; empty where they do not.
@@ -46,13 +48,13 @@ class Filling {
   std::size_t places() const { return places_; }  ///< before any is cut out
   /// Refuses a body of which nothing is left. @throws SceneError
   void check_left(std::uint64_t particles) const;
-  /// visit(place) for every particle, in the order of their numbers.
+  /// visit(const FilledPlace&) for every particle, in the order of their numbers.
   template <class Visit>
   void each(Visit&& visit) const {
     std::mt19937_64 random;
-    each_place([&](const Vec3& point) {
-      const Vec3 place = body_->jitter > 0.0 ? jittered(point, random) : point;
-      if (!is_cut_out(place)) visit(place);
+    each_place([&](FilledPlace place) {
+      if (body_->jitter > 0.0) place.centre = jittered(place.centre, random);
+      if (!is_cut_out(place.centre)) visit(place);
     });
   }
   /// Of a body without jitter: whether it has a particle beside that at `place` along an axis.
@@ -68,7 +70,7 @@ class Filling {
         for (std::int64_t i = x.first; i <= x.last; ++i) {
           const Vec3 point(x.center(i), y.center(j), z.center(k));
           check_stop_();
-          if (body_->region.contains(point)) visit(point);
+          if (cut_.holds(i, j, k) || body_->region.contains(point)) visit(cut_.at(point, i, j, k));
         }
       }
     }
@@ -82,14 +84,15 @@ class Filling {
   /// Gives the particles the volume of what they fill.
   void share_volume();
 
+  mutable StopCheck check_stop_;
   const BodyDefinition* body_;
   const Scene* scene_;
   std::vector<int> axes_;
   std::array<Lattice, 3> lattices_;
+  CutCells cut_;  ///< none in a body with jitter
   std::vector<StandingTool> cut_out_;
   double volume_ = 1.0, scale_ = 1.0;  ///< scale_: of a particle's volume over that of its place
   std::size_t places_ = 0;
-  mutable StopCheck check_stop_;
 };
 
 /// Whether a body's particles lie in other bodies.

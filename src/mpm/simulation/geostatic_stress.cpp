@@ -247,13 +247,15 @@ void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks,
     const double area = lattice.spacing.prod() / lattice.spacing[up];
     const double weight = find_material(definition, body).density * body.particle_volume * g;
     gap = std::max(gap, kGap * lattice.spacing[up]);
-    for (const Vec3& place : body.positions) {
+    for (std::size_t p = 0; p < body.positions.size(); ++p) {
+      const Vec3& place = body.positions[p];
+      const double own = body.parts.empty() ? weight : body.parts[p] * weight;
       const Vec3 cells = (place - columns.origin).cwiseQuotient(columns.spacing);
       std::int64_t column = 0;
       for (int axis = 0; axis < 3; ++axis) {
         if (families.is_across(axis)) column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
       }
-      parts.push_back({family, column, down * place[up], weight, area, static_cast<std::uint32_t>(parts.size())});
+      parts.push_back({family, column, down * place[up], own, area, static_cast<std::uint32_t>(parts.size())});
     }
     extents.push_back(extent_of(body, family, ranks));
   }

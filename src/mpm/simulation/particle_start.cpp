@@ -23,6 +23,9 @@ std::uint32_t number_of(const DeformableBody& body, std::size_t p) {
   return body.part ? body.part->numbers[p] : static_cast<std::uint32_t>(p);
 }
 
+/// The same on every rank, whether it has particles of the body or not.
+bool is_cut(const DeformableBody& body) { return !body.parts.empty() || (body.part && body.part->cut); }
+
 /// Over several ranks arrays get room for particles that come.
 struct Size {
   std::size_t particles, room;
@@ -52,8 +55,8 @@ double beyond(WallKind kind, double half) {
 }
 
 /// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
-void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, const Size& size,
-                ParticleSet& set) {
+void make_rings(const SimulationDefinition& definition, const DeformableBody& body, double per_area,
+                const GridLayout& layout, const Size& size, ParticleSet& set) {
   constexpr double kOffAxis = 1e-6;  // of a cell; on the axis itself v_r / r is no number
   const AxisRules& rules = definition.method.axis;
   set.whole_domains = rules.domains == AxisDomains::whole;
@@ -62,7 +65,34 @@ void make_rings(const SimulationDefinition& definition, double per_area, const G
   set.masses = size.zeros(1, set.precision);
   const double half = set.half[0] * layout.cell(0);
   for (int p = 0; p < set.size(); ++p) {
-    set.masses[0].set(p, per_area * ring_length(set.x[0][p], half, set.whole_domains));
+    const double part = body.parts.empty() ? 1.0 : body.parts[static_cast<std::size_t>(p)];
+    set.masses[0].set(p, part * per_area * ring_length(set.x[0][p], half, set.whole_domains));
+  }
+}
+
+/// One scalar of the particles of a set. `factor`: of the given values, each of which is 1 where none are given.
+void fill_scalar(const std::vector<double>& values, double factor, const Size& size, Precision precision,
+                 std::vector<ParticleScalar>& scalar) {
+  scalar = size.zeros(1, precision);
+  for (std::size_t p = 0; p < size.particles; ++p) scalar[0].set(p, values.empty() ? factor : factor * values[p]);
+}
+
+/// @throws DefinitionError
+void check_parts(const DeformableBody& body, const std::string& start) {
+  for (const auto* numbers : {&body.parts, &body.surfaces}) {
+    if (numbers->empty()) continue;
+    const bool parts = numbers == &body.parts;
+    const char* what = parts ? "parts" : "surfaces";
+    if (numbers->size() != body.positions.size()) {
+      throw DefinitionError(
+          fmt::format("{}{} {} for {} particles", start, numbers->size(), what, body.positions.size()));
+    }
+    for (std::size_t p = 0; p < numbers->size(); ++p) {
+      const double value = (*numbers)[p];
+      if (std::isfinite(value) && (parts ? value > 0.0 : value >= 0.0)) continue;
+      throw DefinitionError(fmt::format("{}particle {}: {} {} must be {}", start, number_of(body, p), what, value,
+                                        parts ? "positive" : "zero or more"));
+    }
   }
 }
 
@@ -82,6 +112,7 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   if (!(body.particle_volume > 0.0) || !std::isfinite(body.particle_volume)) {
     throw DefinitionError(fmt::format("{}particle volume {} must be positive", start, body.particle_volume));
   }
+  check_parts(body, start);
   ParticleSet set;
   set.name = body.name;
   const int dim = layout.dim();
@@ -117,10 +148,13 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   });
   set.history = size.zeros(history_size(law), set.precision);
   if (axisymmetric(definition.geometry)) {
-    make_rings(definition, material.density * body.particle_volume, layout, size, set);
-  } else {
+    make_rings(definition, body, material.density * body.particle_volume, layout, size, set);
+  } else if (!is_cut(body)) {
     set.mass = material.density * body.particle_volume;
+  } else {
+    fill_scalar(body.parts, material.density * body.particle_volume, size, set.precision, set.masses);
   }
+  if (!body.surfaces.empty() || is_cut(body)) fill_scalar(body.surfaces, 1.0, size, set.precision, set.surface);
   if (definition.method.update != UpdateScheme::usf) {
     set.next_x.resize(dim);
     for (PaddedArray<double>& x : set.next_x) size.give(x);
@@ -154,6 +188,7 @@ void leave_own(SimulationDefinition& definition, const Communicator& ranks, cons
   for (DeformableBody& body : definition.bodies) {
     BodyPart own;
     own.whole = body.positions.size();
+    own.cut = !body.parts.empty();
     for (std::uint32_t p = 0; p < own.whole; ++p) {
       if (part.keeps(body.positions[p])) own.numbers.push_back(p);
     }
@@ -161,6 +196,8 @@ void leave_own(SimulationDefinition& definition, const Communicator& ranks, cons
     leave(body.velocities, own.numbers);
     leave(body.stresses, own.numbers);
     leave(body.temperatures, own.numbers);
+    leave(body.parts, own.numbers);
+    leave(body.surfaces, own.numbers);
     body.part = std::move(own);
   }
 }
@@ -199,6 +236,8 @@ void forget_particles(DeformableBody& body) {
   body.velocities = std::vector<Vec3>();
   body.stresses = std::vector<Symmetric3<double>>();
   body.temperatures = std::vector<double>();
+  body.parts = std::vector<double>();
+  body.surfaces = std::vector<double>();
   if (body.part) body.part->numbers = std::vector<std::uint32_t>();
 }
 

@@ -119,6 +119,7 @@ void Simulation::State::serialise_particles(StateArchive& archive) {
     serialise_scalars(archive, "tau", set.tau);
     serialise_scalars(archive, "history", set.history);
     serialise_scalars(archive, "mass", set.masses);
+    serialise_scalars(archive, "surface", set.surface);
     serialise_scalars(archive, "affine", set.affine);
     std::uint64_t starts = set.start_x.size();  // whoever resumes may ask for other outputs
     archive.value("start_x/rows", starts);

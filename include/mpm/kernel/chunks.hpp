@@ -8,11 +8,11 @@
 
 namespace mpm {
 
-/// Whether particles of a set have masses of their own: rings about an axis have, and others where their body's surface
-/// cuts cells.
+/// True of a set whose particles have masses of their own: rings about an axis, and others whose body's surface cuts
+/// cells.
 template <bool Rings, class T>
 bool weighs_each(const mpm_kernel::SetView<T>& set) {
-  return Rings || set.masses != nullptr;
+  return Rings || set.weighed;
 }
 
 /// Masses of particles [p, p + lanes): one for all of a body, or each its own.

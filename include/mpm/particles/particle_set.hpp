@@ -22,11 +22,16 @@ struct NamedScalar {
   PaddedArray<double> values;
 };
 
+/// The most that `ParticleSet::surface` may be.
+inline constexpr double kMostSurface = 2.0;
+
 struct ParticleSet {
   static constexpr int kRestGroup = 4096;
 
-  std::string name;                                      ///< of the body
-  double mass = 0.0;                                     ///< of each particle, where all have the same [kg]
+  std::string name;  ///< of the body
+  /// Mass of each particle where all have the same, of a whole place of the lattice where a surface cuts some; 0 of
+  /// rings [kg].
+  double mass = 0.0;
   std::array<double, 3> half{};                          ///< half of a particle's box along each grid axis [cells]
   std::array<double, 3> lowest{}, highest{};             ///< bounds of particle centres along each grid axis [cells]
   bool whole_domains = false, planar_functions = false;  ///< in axisymmetry: AxisRules (shape/axis_rules.hpp)
@@ -89,6 +94,8 @@ struct ParticleSet {
     for (int p = 1; p < size() && !masses.empty(); ++p) least = std::min(least, mass_of(p));
     return least;
   }
+  /// The least mass of a particle whose place no surface cuts [kg].
+  double least_whole_mass() const { return mass > 0.0 ? mass : least_mass(); }
   /// Makes as much room as there are particles for what a step writes before it reads it.
   void fit_scratch() {
     for (PaddedArray<double>& scalar : next_x) {

@@ -24,7 +24,7 @@ constexpr int kWorthALook = 4;        ///< particles, from which on a ball aroun
 // press down what it has cut off.
 double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centre, const SurfacePoint& at,
                  double step) {
-  if (!(at.distance > 0.0) || geometry == GeometryKind::line) return 0.0;
+  if (!(at.distance > 0.0 && step > 0.0) || geometry == GeometryKind::line) return 0.0;
   const Vec3 place = body.pose().to_body(centre);
   const Vec3 across = dimensions(geometry) == 3 ? Vec3(at.normal.unitOrthogonal()) : Vec3(Vec3::UnitY());
   const auto turned = [&](const Vec3& along) {
@@ -187,7 +187,8 @@ void PointSearch::find_in(double dt) {
   const GridLayout& layout = fields_.front()->layout;
   double farthest = 0.0;
   for (const ParticleSet& set : sets_) {
-    for (int k = 0; k < layout.dim(); ++k) farthest = std::max(farthest, kMostStretch * set.half[k] * layout.cell(k));
+    const double most = kMostStretch * (set.surface.empty() ? 1.0 : kMostSurface);
+    for (int k = 0; k < layout.dim(); ++k) farthest = std::max(farthest, most * set.half[k] * layout.cell(k));
   }
   find_jobs(farthest + layout.smallest_cell());
   while (of_job_.size() < jobs_.size()) of_job_.emplace_back();

@@ -27,6 +27,7 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const mpm_kernel::KernelTable<T
   view.group = set.group.data();
   view.group_begin = set.group_begin.data() + first_owner;
   view.mass = set.mass;
+  view.weighed = !set.masses.empty();
   view.masses = set.masses.empty() ? nullptr : set.masses[0].template data<T>();
   view.whole_domains = set.whole_domains;
   view.planar_functions = set.planar_functions;

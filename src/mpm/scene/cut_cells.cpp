@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mpm/math/constants.hpp"
+#include "mpm/particles/particle_set.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/terrain.hpp"
 
@@ -13,11 +14,11 @@ namespace mpm {
 namespace {
 
 constexpr double kWhole = 1e-9;  ///< of a place: a share is that near to none or all of it
-/// Of a place: what has a particle of its own wherever its centre is. No round number, for where surfaces cut places by
-/// one, round-off would decide.
+/// Share of a place from which on it has a particle of its own wherever its centre is. It is no round number, for where
+/// surfaces cut places by one, round-off would decide.
 constexpr double kLeast = 0.0957;
-constexpr double kSame = 1e-6;      ///< of a spacing: places that are equally near
-constexpr double kMostReach = 2.0;  ///< times that of a whole place
+constexpr double kSame = 1e-6;       ///< of a spacing: places that are equally near
+constexpr double kLeastReach = 0.1;  ///< times that of a whole place; the most is kMostSurface
 
 /// Parts along an axis in which what lies in a body is found.
 int parts_along(std::size_t axes) { return axes == 3 ? 4 : 8; }
@@ -32,31 +33,34 @@ using Number = std::array<std::int64_t, 3>;
 
 std::int64_t key(const Number& number) { return place_key(number[0], number[1], number[2]); }
 
-/// What lies in the body of a place.
+/// The part of a place that lies in the body.
 struct Part {
   double share;  ///< of a place
   Vec3 centre;
 };
 
-/// Of the particles beside the surface, by place_key().
+/// Parts of the particles beside the surface, by place_key().
 using Parts = std::unordered_map<std::int64_t, std::vector<Part>>;
 
 class Cutting {
  public:
   Cutting(const Region& region, const Scene& scene, const std::array<Lattice, 3>& lattices)
       : region_(region), lattices_(lattices), axes_(axes_of(scene)) {}
-  /// What each particle beside the surface gets.
+  /// Finds the parts that each particle beside the surface gets.
   Parts parts(StopCheck& check_stop) const;
-  /// The particle that has these parts.
-  FilledPlace sum(const std::vector<Part>& given) const;
+  /// Makes the particle of a place that has these parts.
+  FilledPlace sum(std::int64_t key, const std::vector<Part>& given) const;
 
  private:
   Vec3 centre_of(const Number& number) const;
-  /// Whether a place has a particle; `parts`: of those that are cut.
+  /// True of a place that has a particle; `parts`: of those that are cut.
   bool holds(const Number& number, const Parts& parts) const;
-  /// Whether the body would reach there if its curved surface were farther out.
+  /// True where the body would reach if its curved surface were farther out.
   bool is_between_ends(const Vec3& point) const;
-  /// To the curved surface, negative inside [m], and the normal out of the body.
+  /// True in the outermost places at a flat end of a cylinder: there the whole box meets a tool, so that the end is
+  /// flat.
+  bool is_at_end(const Vec3& point) const;
+  /// Finds the distance to the curved surface, negative inside [m], and the normal out of the body.
   double distance(const Vec3& point, Vec3& normal) const;
   Part part_of(const Vec3& centre) const;
   /// Places beside one that take a part of it with this centre.
@@ -103,18 +107,25 @@ Parts Cutting::parts(StopCheck& check_stop) const {
   return parts;
 }
 
-FilledPlace Cutting::sum(const std::vector<Part>& given) const {
+FilledPlace Cutting::sum(std::int64_t key, const std::vector<Part>& given) const {
   FilledPlace place{Vec3::Zero(), 0.0};
   for (const Part& part : given) {
     place.part += part.share;
     place.centre += part.share * part.centre;
   }
   place.centre /= place.part;
+  // With parts of others it may lie just beyond its place, by which particles are found again.
+  const Vec3 middle = centre_of(place_number(key));
+  for (const int axis : axes_) {
+    const double most = (0.5 - kSame) * lattices_[axis].spacing;
+    place.centre[axis] = std::clamp(place.centre[axis], middle[axis] - most, middle[axis] + most);
+  }
+  if (is_at_end(place.centre)) return place;
   Vec3 normal;
   const double depth = -distance(place.centre, normal);
   double reach = 0.0;
   for (const int axis : axes_) reach += std::pow(0.5 * lattices_[axis].spacing * normal[axis], 2);
-  place.surface = std::clamp(depth / std::sqrt(reach), 0.0, kMostReach);
+  place.surface = std::clamp(depth / std::sqrt(reach), kLeastReach, kMostSurface);
   return place;
 }
 
@@ -144,6 +155,12 @@ bool Cutting::is_between_ends(const Vec3& point) const {
   return true;
 }
 
+bool Cutting::is_at_end(const Vec3& point) const {
+  if (region_.kind != Region::Kind::cylinder || axes_.size() < 3) return false;
+  const double along = std::abs(point[region_.axis] - region_.center[region_.axis]);
+  return along > 0.5 * region_.height - lattices_[region_.axis].spacing;
+}
+
 double Cutting::distance(const Vec3& point, Vec3& normal) const {
   if (region_.kind == Region::Kind::terrain) {
     // The plane that touches the surface above the point, over a spacing.
@@ -153,10 +170,10 @@ double Cutting::distance(const Vec3& point, Vec3& normal) const {
     for (const int axis : axes_) {
       if (axis == 2) continue;
       Vec3 low = point, high = point;
-      low[axis] = std::max(point[axis] - 0.5 * lattices_[axis].spacing, bounds.min[axis]);
-      // The map may have no height beyond its last point here, which counts as of the next of its cells.
-      high[axis] =
-          std::min(point[axis] + 0.5 * lattices_[axis].spacing, bounds.max[axis] - kSame * lattices_[axis].spacing);
+      // The map may have no height beyond its first and last points here, which count as of the next of its cells.
+      const double slack = kSame * lattices_[axis].spacing;
+      low[axis] = std::max(point[axis] - 0.5 * lattices_[axis].spacing, bounds.min[axis] + slack);
+      high[axis] = std::min(point[axis] + 0.5 * lattices_[axis].spacing, bounds.max[axis] - slack);
       normal[axis] = -(height(high.x(), high.y()) - height(low.x(), low.y())) / (high[axis] - low[axis]);
     }
     const double length = normal.norm();
@@ -227,7 +244,7 @@ CutCells::CutCells(const Region& region, const Scene& scene, const std::array<La
                    StopCheck& check_stop) {
   if (!has_curved_side(region, scene)) return;
   const Cutting cutting(region, scene, lattices);
-  for (const auto& [at, given] : cutting.parts(check_stop)) cut_.emplace(at, cutting.sum(given));
+  for (const auto& [at, given] : cutting.parts(check_stop)) cut_.emplace(at, cutting.sum(at, given));
 }
 
 }  // namespace mpm

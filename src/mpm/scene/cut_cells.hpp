@@ -6,8 +6,8 @@
 // own centre is outside has a particle, too, where a tenth of it or more lies in the body. Less than that goes to the
 // particle beside it: one across a face before one across an edge before one across a corner, of these the nearest to
 // the part's centre, and in equal shares to those that are equally near. So volume, centre and second moments are those
-// of the shape, and no particle is lighter than a tenth of a whole one. How far its centre is from the surface is kept
-// beside it, for contact. Private to this folder.
+// of the shape. A particle is lighter than a tenth of a whole one only where its place's centre lies in a ridge as
+// thin. The distance of its centre from the surface is kept beside it, for contact. Private to this folder.
 #pragma once
 
 #include <array>
@@ -32,13 +32,19 @@ inline std::int64_t place_key(std::int64_t i, std::int64_t j, std::int64_t k) {
   return (i - lowest) + most * ((j - lowest) + most * (k - lowest));
 }
 
+/// The place that has this number.
+inline std::array<std::int64_t, 3> place_number(std::int64_t key) {
+  constexpr std::int64_t lowest = -1024, most = std::int64_t{1} << 21;
+  return {key % most + lowest, key / most % most + lowest, key / (most * most) + lowest};
+}
+
 class CutCells {
  public:
   CutCells() = default;
-  /// Of a body whose surface meets its lattice: none. @throws StoppedError
+  /// Finds none for a body whose surface meets its lattice. @throws StoppedError
   CutCells(const Region& region, const Scene& scene, const std::array<Lattice, 3>& lattices, StopCheck& check_stop);
   bool empty() const { return cut_.empty(); }
-  /// Whether a place has a particle though its centre may lie outside.
+  /// True of a place that has a particle though its centre may lie outside.
   bool holds(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return !cut_.empty() && cut_.count(place_key(i, j, k)) > 0;
   }

@@ -186,7 +186,7 @@ void Simulation::State::settle() {
   if (ranks) options.modules = {note_home};
   Simulation run(std::move(part), std::move(options));
   State& r = *run.state_;
-  const double g = definition.gravity.norm(), lightest = mpm::least_mass(r.sets, ranks.get());
+  const double g = definition.gravity.norm(), lightest = mpm::least_mass(r.sets, ranks.get(), true);
   const double period = static_cast<double>(definition.time.sync) * 1e-9;
   Unbalanced residual;
   double before = 0.0, moves_for = 0.0;

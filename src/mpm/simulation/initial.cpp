@@ -137,12 +137,14 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
       if (ranks != nullptr) inverses.push_back(1.0 / j);
     }
   });
-  if (!set.masses.empty()) return;
+  const bool own_masses = !set.masses.empty();
+  if (own_masses && set.mass == 0.0) return;  // rings
   const std::uint64_t whole = whole_of(body);
   if (ranks != nullptr) add_up(*ranks, *body.part, inverses, spread);
-  // The particles of a body have one mass, so where J varies it is their mean mass that is right.
+  // The particles of a body have one mass, so where J varies it is their mean mass that is right. Where a surface cuts
+  // some, it is that of a whole place.
   if (!spread.is_even()) set.mass *= spread.inverse / static_cast<double>(whole);
-  if (spread.most > (1.0 + kEvenVolume) * spread.least) {
+  if (!own_masses && spread.most > (1.0 + kEvenVolume) * spread.least) {
     warnings.push_back(
         fmt::format("body '{}': its initial stress strains it unevenly, J from {:.4g} to {:.4g}, but its particles "
                     "have one mass: its "

@@ -23,7 +23,7 @@ std::uint32_t number_of(const DeformableBody& body, std::size_t p) {
   return body.part ? body.part->numbers[p] : static_cast<std::uint32_t>(p);
 }
 
-/// The same on every rank, whether it has particles of the body or not.
+/// True of a body whose surface cuts places, on every rank, whether it has particles of the body or not.
 bool is_cut(const DeformableBody& body) { return !body.parts.empty() || (body.part && body.part->cut); }
 
 /// Over several ranks arrays get room for particles that come.
@@ -79,6 +79,11 @@ void fill_scalar(const std::vector<double>& values, double factor, const Size& s
 
 /// @throws DefinitionError
 void check_parts(const DeformableBody& body, const std::string& start) {
+  if (body.parts.empty() != body.surfaces.empty()) {
+    throw DefinitionError(fmt::format("{}it has {} without {}; give both, or none", start,
+                                      body.parts.empty() ? "surfaces" : "parts",
+                                      body.parts.empty() ? "parts" : "surfaces"));
+  }
   for (const auto* numbers : {&body.parts, &body.surfaces}) {
     if (numbers->empty()) continue;
     const bool parts = numbers == &body.parts;
@@ -89,9 +94,9 @@ void check_parts(const DeformableBody& body, const std::string& start) {
     }
     for (std::size_t p = 0; p < numbers->size(); ++p) {
       const double value = (*numbers)[p];
-      if (std::isfinite(value) && (parts ? value > 0.0 : value >= 0.0)) continue;
-      throw DefinitionError(fmt::format("{}particle {}: {} {} must be {}", start, number_of(body, p), what, value,
-                                        parts ? "positive" : "zero or more"));
+      if (value > 0.0 && std::isfinite(value) && (parts || value <= kMostSurface)) continue;
+      throw DefinitionError(fmt::format("{}particle {}: {} {} must be positive{}", start, number_of(body, p), what,
+                                        value, parts ? "" : fmt::format(", and {:g} at most", kMostSurface)));
     }
   }
 }
@@ -149,12 +154,11 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   set.history = size.zeros(history_size(law), set.precision);
   if (axisymmetric(definition.geometry)) {
     make_rings(definition, body, material.density * body.particle_volume, layout, size, set);
-  } else if (!is_cut(body)) {
-    set.mass = material.density * body.particle_volume;
   } else {
-    fill_scalar(body.parts, material.density * body.particle_volume, size, set.precision, set.masses);
+    set.mass = material.density * body.particle_volume;
+    if (is_cut(body)) fill_scalar(body.parts, set.mass, size, set.precision, set.masses);
   }
-  if (!body.surfaces.empty() || is_cut(body)) fill_scalar(body.surfaces, 1.0, size, set.precision, set.surface);
+  if (is_cut(body)) fill_scalar(body.surfaces, 1.0, size, set.precision, set.surface);
   if (definition.method.update != UpdateScheme::usf) {
     set.next_x.resize(dim);
     for (PaddedArray<double>& x : set.next_x) size.give(x);
@@ -219,10 +223,10 @@ double total_mass(const ParticleSet& set, const DeformableBody& body, Communicat
   return set.masses.empty() ? set.mass * static_cast<double>(whole_of(body)) : ranks->sum(set.total_mass());
 }
 
-double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks) {
+double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks, bool whole) {
   double least = std::numeric_limits<double>::infinity();
   for (const ParticleSet& set : sets) {
-    if (set.size() > 0) least = std::min(least, set.least_mass());
+    if (set.size() > 0) least = std::min(least, whole ? set.least_whole_mass() : set.least_mass());
   }
   if (ranks == nullptr) return least;
   least = -least;

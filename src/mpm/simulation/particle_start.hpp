@@ -30,8 +30,8 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
 
 /// Of a body's particles on all ranks [kg]. Collective.
 double total_mass(const ParticleSet& set, const DeformableBody& body, Communicator* ranks);
-/// Of a particle on any rank [kg]. Collective.
-double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks);
+/// The least mass of a particle on any rank, or of one whose place no surface cuts (`whole`) [kg]. Collective.
+double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks, bool whole = false);
 
 /// Frees what has been read.
 void forget_particles(DeformableBody& body);

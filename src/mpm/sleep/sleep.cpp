@@ -237,7 +237,7 @@ void Sleep::increment_found(StepContext& context) {
 void Sleep::strike_what_sets_off(StepContext& context) {
   double lightest = std::numeric_limits<double>::infinity();
   for (const ParticleSet& set : parts_.sets) {
-    if (set.size() > 0) lightest = std::min(lightest, set.least_mass());
+    if (set.size() > 0) lightest = std::min(lightest, set.least_whole_mass());
   }
   if (across_) {
     double greatest = -lightest;

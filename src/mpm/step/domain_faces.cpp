@@ -61,7 +61,14 @@ double DomainFaces::across(const ParticleSet& set, int p) const {
 }
 
 FaceParts DomainFaces::parts(int set, int particle, DomainFace face) const {
-  return face_parts(settings_.geometry, domain_of(sets_[set], particle), face, across(sets_[set], particle));
+  const ParticleSet& own = sets_[set];
+  FaceParts parts = face_parts(settings_.geometry, domain_of(own, particle), face, across(own, particle));
+  if (own.surface.empty() || own.mass == 0.0) return parts;
+  // Where a surface cuts the particle's place, the face of a flat end has the share of it that lies in the body.
+  const double share = own.mass_of(particle) / own.mass;
+  parts.area *= share;
+  for (int c = 0; c < parts.corners; ++c) parts.corner[c].area *= share;
+  return parts;
 }
 
 namespace {

@@ -12,6 +12,7 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace cut_cells_test {
@@ -184,6 +185,56 @@ TEST(CutCells, LeavesWhatMeetsTheLatticeAsItIs) {
     EXPECT_TRUE(body.surfaces.empty()) << shape;
   }
   EXPECT_TRUE(filled("axisymmetric", "cylinder: {center: [0, 0], radius: 0.43, height: 0.5}").parts.empty());
+}
+
+// At a flat end the whole boxes of a cylinder's particles meet a tool, and a pressure on it presses with its area: the
+// side that cuts them there is not what acts.
+TEST(CutCells, CylindersHaveFlatEnds) {
+  const DeformableBody body = filled("solid", "cylinder: {center: [0.013, 0.021, 0], radius: 0.4, height: 0.6}");
+  double share = 0.0;
+  for (std::size_t p = 0; p < body.positions.size(); ++p) {
+    if (std::abs(body.positions[p].z()) < 0.25) continue;
+    EXPECT_EQ(body.surfaces[p], 1.0);
+    if (body.positions[p].z() > 0.0) share += body.parts[p];
+  }
+  EXPECT_NEAR(share * kPlace * kPlace, kPi * 0.4 * 0.4, 2e-3 * kPi * 0.4 * 0.4);
+
+  Simulation simulation(
+      build(parse_scene("geometry: solid\ngrid: {cell: 0.1, min: [-0.6, -0.6, -0.6], max: [0.6, 0.6, 0.6]}\n"
+                        "time: {end: 1, sync: 1 ms}\n"
+                        "materials: [{name: m, law: linear_elastic, density: 1000, young: 1e5, poisson: 0.25}]\n"
+                        "bodies: [{name: b, material: m, shape: {cylinder: {center: [0.013, 0.021, 0], radius: 0.4, "
+                        "height: 0.6}}}]\n"
+                        "loads: [{pressure: {body: b, face: z_max, pressure: 10}}]\n",
+                        "pressed.yaml", {})),
+      {1});
+  for (int n = 0; n < 5; ++n) simulation.advance();
+  const double force = simulation.state().audit.momentum.z() / 5e-3;
+  EXPECT_NEAR(force, -10.0 * kPi * 0.4 * 0.4, 2e-3 * 10.0 * kPi * 0.4 * 0.4);
+}
+
+// At the foot of a notch what lies in the ground of a place may have its centre above the surface, from where contact
+// has to have a reach all the same.
+TEST(CutCells, ContactReachesFromTheFootOfANotch) {
+  for (const double foot : {0.11, 0.117, 0.125, 0.135, 0.14}) {
+    const std::string ground =
+        fmt::format("height_field: {{x: [-1, 1], heights: [{}, {}, {}]}}", foot + 1, foot, foot + 1);
+    const DeformableBody body = filled("plane_strain", ground);
+    for (const double surface : body.surfaces) EXPECT_GT(surface, 0.0) << foot;
+    Simulation simulation(
+        build(parse_scene("geometry: plane_strain\ngrid: {cell: 0.1, min: [-1.2, -1.2], max: [1.2, 1.2]}\n"
+                          "time: {end: 1, sync: 1 ms}\n"
+                          "materials: [{name: m, law: linear_elastic, density: 1000, young: 1e5, poisson: 0.25}]\n"
+                          "bodies: [{name: b, material: m, shape: {" +
+                              ground +
+                              "}}]\n"
+                              "rigid_bodies: [{name: tool, shape: {sphere: {radius: 0.2}}, pose: {position: [0, " +
+                              std::to_string(foot + 0.24) + "]}, motion: {velocity: [0, -0.5]}}]\n",
+                          "notch.yaml", {})),
+        {1});
+    for (int n = 0; n < 20; ++n) simulation.advance();
+    EXPECT_TRUE(std::isfinite(simulation.take_contact(0).mean.force.z())) << foot;
+  }
 }
 
 TEST(CutCells, SymmetricBodiesAreFilledSymmetrically) {

@@ -48,6 +48,7 @@ const Case kCases[] = {
     {"swelling_strip", {}},                           // a solvent that flows in, velocity conditions
     {"consolidating_cylinder", {}},                   // water in pores
     {"terzaghi_column", {}},                          // the same on a line, which has fewer blocks than ranks
+    {"pressed_disk", {"method.precision=single"}},    // particles of masses of their own
     {"plate_in_sleeping_sand",
      {"grid.max=[1.6, 0.5]", "bodies.bed.shape.box.max=[1.6, 0.2]", "rigid_bodies.plate.pose.position=[0.3, 0.2502]",
       "rigid_bodies.plate.motion={velocity: [0, -0.3]}"}},  // geostatic
@@ -96,7 +97,8 @@ TEST_F(OverRanksCheckpoint, GoesOnToTheBitWhileAToolMoves) {
 
 // What a free body, points of contact, heat, pairs and conditions remember, too.
 TEST_F(OverRanksCheckpoint, KeepsWhatModulesRemember) {
-  for (const char* scene : {"ranks_free", "ranks_pair", "ranks_chute", "terzaghi_column", "swelling_strip"}) {
+  for (const char* scene :
+       {"ranks_free", "ranks_pair", "ranks_chute", "terzaghi_column", "swelling_strip", "pressed_disk"}) {
     SCOPED_TRACE(scene);
     run_.scene = scene;
     const Outcome whole = write(3), same = go_on(3);

@@ -189,8 +189,7 @@ TEST(MaterialContact, DisksTouchWhenTheyTouch) {
       drift = std::max(drift, std::abs(run.state().energy.total() / energy - 1.0));
     }
     const std::string note = fmt::format(", {:g} cells across", 0.4 / cell);
-    // Tolerance: 0.3 cells over the speed of approach. The detection (pair_detection.hpp) accounts for a tenth, and the
-    // disks are staircases of half cells; measured 0.23.
+    // Tolerance: 0.3 cells over the speed of approach. The detection (pair_detection.hpp) accounts for a tenth.
     page.near_absolute("first touch" + note, first, touch, 0.3 * cell / (0.2 * std::sqrt(2.0)), "s");
     const mpm::AuditReport audit = run.state().audit;
     page.below("total momentum" + note, audit.momentum.norm() / exchanged, 1e-10, "of the momentum exchanged");

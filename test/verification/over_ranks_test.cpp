@@ -48,7 +48,7 @@ const Case kCases[] = {
     {"swelling_strip", {}},                           // a solvent that flows in, velocity conditions
     {"consolidating_cylinder", {}},                   // water in pores
     {"terzaghi_column", {}},                          // the same on a line, which has fewer blocks than ranks
-    {"pressed_disk", {"method.precision=single"}},    // particles of masses of their own
+    {"pressed_disk", {}},                             // particles of masses of their own
     {"plate_in_sleeping_sand",
      {"grid.max=[1.6, 0.5]", "bodies.bed.shape.box.max=[1.6, 0.2]", "rigid_bodies.plate.pose.position=[0.3, 0.2502]",
       "rigid_bodies.plate.motion={velocity: [0, -0.3]}"}},  // geostatic

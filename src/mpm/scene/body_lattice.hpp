@@ -1,7 +1,7 @@
 // The lattice on which a body's particles lie, and the volume that they are to have. A face of a box, of the ground
 // under a terrain or of a cylinder's ends that does not lie on a plane of the grid's lattice would come out up to half
 // a particle from where it is meant: along that axis the body has a lattice of its own, between its faces. What is
-// round or uneven keeps the grid's; its particles share the volume of the shape. Private to this folder.
+// round or uneven keeps the grid's, and its particles follow the surface (cut_cells.hpp). Private to this folder.
 #pragma once
 
 #include <array>

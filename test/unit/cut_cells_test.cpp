@@ -205,7 +205,7 @@ TEST(CutCells, CylindersHaveFlatEnds) {
                         "materials: [{name: m, law: linear_elastic, density: 1000, young: 1e5, poisson: 0.25}]\n"
                         "bodies: [{name: b, material: m, shape: {cylinder: {center: [0.013, 0.021, 0], radius: 0.4, "
                         "height: 0.6}}}]\n"
-                        "loads: [{pressure: {body: b, face: z_max, value: 10}}]\n",
+                        "loads: [{pressure: {body: b, edge: z_max, value: 10}}]\n",
                         "pressed.yaml", {})),
       {1});
   for (int n = 0; n < 5; ++n) simulation.advance();

@@ -48,7 +48,7 @@ const Case kCases[] = {
     {"swelling_strip", {}},                           // a solvent that flows in, velocity conditions
     {"consolidating_cylinder", {}},                   // water in pores
     {"terzaghi_column", {}},                          // the same on a line, which has fewer blocks than ranks
-    {"pressed_disk", {}},                             // particles of masses of their own
+    {"pressed_disk", {"rigid_bodies.top.motion={velocity: [0, -0.2]}"}},  // particles of masses of their own
     {"plate_in_sleeping_sand",
      {"grid.max=[1.6, 0.5]", "bodies.bed.shape.box.max=[1.6, 0.2]", "rigid_bodies.plate.pose.position=[0.3, 0.2502]",
       "rigid_bodies.plate.motion={velocity: [0, -0.3]}"}},  // geostatic
@@ -97,8 +97,7 @@ TEST_F(OverRanksCheckpoint, GoesOnToTheBitWhileAToolMoves) {
 
 // What a free body, points of contact, heat, pairs and conditions remember, too.
 TEST_F(OverRanksCheckpoint, KeepsWhatModulesRemember) {
-  for (const char* scene :
-       {"ranks_free", "ranks_pair", "ranks_chute", "terzaghi_column", "swelling_strip", "pressed_disk"}) {
+  for (const char* scene : {"ranks_free", "ranks_pair", "ranks_chute", "terzaghi_column", "swelling_strip"}) {
     SCOPED_TRACE(scene);
     run_.scene = scene;
     const Outcome whole = write(3), same = go_on(3);
@@ -106,6 +105,15 @@ TEST_F(OverRanksCheckpoint, KeepsWhatModulesRemember) {
     EXPECT_EQ(same.memory_hash, whole.memory_hash);
     expect_equal(go_on(2), whole, 1e-10);
   }
+}
+
+TEST_F(OverRanksCheckpoint, KeepsMassesAndReachesOfParticlesThatASurfaceCuts) {
+  run_ = {"pressed_disk", {"rigid_bodies.top.motion={velocity: [0, -0.2]}"}};
+  const Outcome whole = write(3), same = go_on(3);
+  EXPECT_GT(whole.contacts[1].pressing, 0.0);
+  EXPECT_EQ(same.state_hash, whole.state_hash);
+  EXPECT_EQ(same.memory_hash, whole.memory_hash);
+  expect_equal(go_on(2), whole, 1e-10);
 }
 
 TEST_F(OverRanksCheckpoint, OfOneProcessGoesOnOverRanks) {

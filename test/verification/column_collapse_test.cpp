@@ -125,10 +125,11 @@ void verify(verification::Page& page, const std::vector<double>& aspects, int ce
   curve("Lajeunesse et al.: 1.8 a", aspects.front(), 3.0, 1.8, 1.0);
   curve("μ(I) continuum: 2.2 a", aspects.front(), last, 2.2, 1.0);
   page.meaning(
-      "Run-out is within the spread of published fits to two cells; high columns run out farther than sands in "
-      "channels did. It grows as the grid is refined, most of all for low columns, whose front is only a few cells "
-      "high, and a PIC fraction shortens it: compare scenes at one resolution. Heaps are no steeper than about the "
-      "slope on which this sand shears, 26.6° (the layer on a slope).");
+      "Run-out is within the spread of published fits to two cells; low columns, whose front is only a few cells "
+      "high, stop short of what sands in channels did. It grows as the grid is refined, and a PIC fraction shortens "
+      "it: "
+      "compare scenes at one resolution. Heaps are about as steep as the slope on which this sand shears, 26.6° (the "
+      "layer on a slope).");
 }
 
 TEST(ColumnCollapse, RunsOutAsPublished) {

@@ -1,4 +1,4 @@
-// PIC of order 2: what waves lose in a step against the exact loss, at mirrors and across a periodic axis too;
+// FLIP mixed with XPIC: what waves lose in a step against the exact loss, at mirrors and across a periodic axis too;
 // momentum, energy and bits for any number of threads. 0.5 s.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -121,6 +121,27 @@ TEST(FlipMixedWithXpic, KeepsMomentumAndCountsItsEnergy) {
   EXPECT_LT(second.transfer, first.transfer);
   EXPECT_LT(std::abs(second.energy), 0.02 * first.transfer);
   EXPECT_EQ(three.hash, second.hash);
+}
+
+// With `every: 3` the first two steps are FLIP's to the bit, and the third is not.
+TEST(FlipMixedWithXpic, ActsInOneOfSoManySteps) {
+  const auto start = [](const std::string& transfer) { return dust(kWaves[1], "{transfer: " + transfer + "}"); };
+  Simulation mixed = start("{flip: 0.6, xpic: 2, every: 3}"), flip = start("flip");
+  for (int step = 1; step <= 3; ++step) {
+    mixed.advance();
+    flip.advance();
+    EXPECT_EQ(field(mixed, "vx") == field(flip, "vx"), step < 3) << step;
+  }
+}
+
+// What a run records reads as the same transfer.
+TEST(FlipMixedWithXpic, IsRecordedAsItWasRead) {
+  const Scene scene = parse_scene(
+      kBlobs + std::string("method: {auto: {}, transfer: {flip: 0.6, xpic: 2, every: 5}}\n"), "blobs.yaml", {});
+  const Transfer again = parse_scene(scene.text, "again.yaml", {}).definition.method.transfer;
+  EXPECT_EQ(again.flip, 0.6);
+  EXPECT_EQ(again.mixed, 2);
+  EXPECT_EQ(again.every, 5);
 }
 
 }  // namespace flip_mixed_with_xpic_test

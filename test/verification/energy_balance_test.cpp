@@ -73,6 +73,9 @@ TEST_P(EnergyBalance, OfSandBeforeABlade) { expect_balance(GetParam(), "1", "fri
 // flies as well as of its noise.
 TEST_P(EnergyBalance, WithWhatTheTransferTakes) { expect_balance(GetParam(), "0.9", "transfer"); }
 
+// The transfer that soil has by default, which gives back a part of what PIC takes.
+TEST_P(EnergyBalance, WithWhatXpicGivesBack) { expect_balance(GetParam(), "0.6, xpic: 2, every: 5", "transfer"); }
+
 // A column of sand falls on a fixed floor and flows into the corners of a box whose sides are fixed, too.
 TEST(EnergyBalanceOfWalls, OfSandThatFallsIntoABox) {
   for (const char* update : {"usf", "usavg"}) {

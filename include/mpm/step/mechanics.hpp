@@ -28,7 +28,8 @@ class Mechanics : public Module {
   virtual void internal_force(StepContext&) = 0;
   /// velocity = v^{n+1}, force = acceleration, from momentum, force and gravity.
   virtual void update_momentum(StepContext&) = 0;
-  /// XPIC and FMPM: number of increments that make up the velocity which particles adopt, after momentum was updated.
+  /// XPIC, also mixed with FLIP, and FMPM: number of increments that make up the velocity which particles adopt, after
+  /// momentum was updated.
   virtual int increments() const = 0;
   /// Sets Grid::increment to the velocity from which increments are computed; conditions may act on it before.
   virtual void begin_increments(StepContext&) = 0;

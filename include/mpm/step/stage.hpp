@@ -30,13 +30,14 @@ class StageWith : public Module {
   virtual void forces_gathered(Context&) {}
   /// Grid::velocity is v^{n+1}, Grid::force the acceleration: a stage that adds dv to the one adds dv/dt to the other.
   virtual void momentum_updated(Context&) {}
-  /// XPIC, FMPM: Grid::increment is a velocity [m/s], of the step's start or of its end, that is about to be filtered:
-  /// a stage that holds a node sets the velocity at which it holds it. This exchanges no momentum; it only keeps from
-  /// the filter what the condition removes anyhow.
+  /// XPIC, also mixed with FLIP, and FMPM: Grid::increment is a velocity [m/s], of the step's start or of its end, that
+  /// is about to be filtered: a stage that holds a node sets the velocity at which it holds it. This exchanges no
+  /// momentum; it only keeps from the filter what the condition removes anyhow.
   virtual void velocity_found(Context&) {}
   /// XPIC, FMPM: Grid::increment [m/s] is about to be added to the velocity that particles adopt; a stage that
   /// holds a node along a direction removes that component, and books the momentum. Before that the increments'
-  /// momentum sums to zero.
+  /// momentum sums to zero. Where XPIC is mixed with FLIP it is the part of it that particles take over, and is added
+  /// to the acceleration, too.
   virtual void increment_found(Context&) {}
   /// The grid's velocities are final, and the step's impulse is known.
   virtual void grid_advanced(Context&) {}

@@ -36,6 +36,7 @@ class Continuum final : public Mechanics {
   void scatter_momentum(StepContext&) override {
     failed_.reset();
     turn_ = (turn_ + 1) % settings_.transfer.every;
+    if (settings_.transfer.mixes()) increments_.make_room(passes_);
     passes_.each_field([&](Field& field) { look_at(field); });
     passes_.spread({&Grid::mass, &Grid::momentum}, [&](Field& field, const Block& block) {
       kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
@@ -134,7 +135,8 @@ class Continuum final : public Mechanics {
   bool must_sort() const override { return must_sort_; }
   void blocks_renewed() override { generation_ = passes_.fields().front().grid.blocks.generation(); }
   void energies(EnergyReport& report) const override {
-    if (motion_ != mpm_kernel::kIncrement) report.leave_open();  // what XPIC, FMPM and APIC take is not counted
+    // What XPIC, FMPM and APIC take is not counted, nor what a mixture gives back beyond the second order.
+    if (motion_ != mpm_kernel::kIncrement || settings_.transfer.mixed > 2) report.leave_open();
     if (motion_ == mpm_kernel::kIncrement && (settings_.transfer.flip != 1.0 || settings_.damping != nullptr)) {
       report.add("transfer", NamedEnergy::Kind::dissipated, slip_energy_);
     }

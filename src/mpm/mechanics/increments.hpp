@@ -24,6 +24,15 @@ class Increments {
  public:
   explicit Increments(int threads) : threads_(threads) {}
 
+  /// Makes room for what a later step needs, so that it does not allocate.
+  void make_room(FieldPasses<T>& passes) {
+    for (Field& field : passes.fields()) {
+      field.grid.increment.resize(field.grid.blocks.size());
+      field.taken.resize(field.grid.blocks.owners());
+      works_.reserve(field.grid.blocks.size());
+    }
+  }
+
   /// Sets Grid::increment to the velocity from which the others are found [m/s].
   void begin(FieldPasses<T>& passes, const Transfer& transfer) {
     const bool from_start = transfer.kind != TransferKind::fmpm;
@@ -87,9 +96,10 @@ class Increments {
     }
   }
 
-  /// Work that it does, before conditions take from it what they hold and count what that gives, on this rank [J]: at
-  /// the mean of the particles' velocities before and after the step. Of that mean at the nodes the part of PIC takes
-  /// half of the first increment, and order 2 gives it back, so it is the mean without increments.
+  /// Work that the first of them does, before conditions take from it what they hold and count what that gives, on this
+  /// rank [J]: at the mean of the particles' velocities before and after the step. Of that mean at the nodes PIC takes
+  /// half of the increment, and order 2 gives it back, but for what S+ S smooths of it: 2 % of the account for waves of
+  /// 8 cells, 7 % for those of 4, of a part of 0.4.
   double work(const FieldPasses<T>& passes, double dt) {
     double all = 0.0;
     for (const Field& field : passes.fields()) {

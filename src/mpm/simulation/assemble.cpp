@@ -231,6 +231,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   Transfer& transfer = s.definition.method.transfer;
   const bool filters = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
   if (filters && transfer.order == 1) transfer = {TransferKind::flip, 0.0, 1};  // the first order is PIC
+  if (transfer.flip == 1.0) transfer.mixed = transfer.every = 1;                // and with FLIP alone nothing mixes
   const SimulationDefinition& definition = s.definition;
   std::size_t count = 0;
   std::vector<std::string> materials;

@@ -138,7 +138,7 @@ TEST_F(ExpectedPaceTest, IsExplainedWithWhatWouldHelp) {
   options.scene = "falling_block";
   options.set = {"time.step=1e-8", "time.end=0.001"};  // no machine does 1e8 steps a second
   // USF helps, with one strain pass in place of two, on any machine; single precision does not in so small a scene.
-  // What another process takes meanwhile may hide it, so the scene is timed again then.
+  // Time that another process takes may hide it, so the scene is timed again then.
   std::ostringstream out;
   for (int attempt = 0; attempt < 10 && out.str().find("method.update=usf") == std::string::npos; ++attempt) {
     out.str("");

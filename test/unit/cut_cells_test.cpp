@@ -55,7 +55,7 @@ Moments moments(const DeformableBody& body, bool about_axis = false) {
   return sum;
 }
 
-// Of centres anywhere between the nodes.
+// Centres anywhere between the nodes.
 const std::array<Vec3, 4> kCentres{Vec3(0, 0, 0), Vec3(0.05, 0.05, 0.05), Vec3(0.013, 0.021, -0.007),
                                    Vec3(-0.031, 0.049, 0.024)};
 

@@ -134,7 +134,7 @@ TEST(FlipMixedWithXpic, ActsInOneOfSoManySteps) {
   }
 }
 
-// What a run records reads as the same transfer.
+// The text that a run records reads as the same transfer.
 TEST(FlipMixedWithXpic, IsRecordedAsItWasRead) {
   const Scene scene = parse_scene(
       kBlobs + std::string("method: {auto: {}, transfer: {flip: 0.6, xpic: 2, every: 5}}\n"), "blobs.yaml", {});

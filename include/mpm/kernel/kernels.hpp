@@ -70,7 +70,7 @@ struct SetView {
   const std::uint32_t* group;            ///< first particle of each group, and one past the last
   const std::uint32_t* group_begin;      ///< first group of each owner, and one past the last
   double mass;                           ///< of a particle [kg]
-  bool weighed;                          ///< whether particles have masses of their own, on any rank
+  bool weighed;                          ///< true if particles have masses of their own, on any rank
   const T* masses;                       ///< these [kg]; null if there are none here
   double half[3];                        ///< half of its box [cells]
   bool whole_domains, planar_functions;  ///< about an axis: AxisRules (shape/axis_rules.hpp)

@@ -24,7 +24,7 @@ struct Transfer {
 
   int every = 1;  ///< steps from one to the next in which that fraction holds; others are FLIP's, for flip only
 
-  /// Whether FLIP is mixed with XPIC of an order above that of PIC.
+  /// True if FLIP is mixed with XPIC of an order above that of PIC.
   bool mixes() const { return kind == TransferKind::flip && flip != 1.0 && mixed > 1; }
 };
 

@@ -211,7 +211,7 @@ void PointContact::increment_found(StepContext&) {
     give(i, point.velocity, Vec3::Zero());
   }
   if (free) free_.finish();
-  // What the increments' impulses do at edges they do at the velocities of the step.
+  // The work of the increments' impulses at edges is done at the velocities of the step.
   solver_.load(&Grid::velocity);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const PointSolver::Point& point = solver_.points()[i];

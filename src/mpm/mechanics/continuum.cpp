@@ -84,8 +84,8 @@ class Continuum final : public Mechanics {
     if (settings_.transfer.mixes()) slip_energy_ -= increments_.work(passes_, context.dt);
   }
   void add_increment(StepContext& context) override {
-    increments_.add(passes_);
-    if (settings_.transfer.mixes()) increments_.accelerate(passes_, context.dt);
+    increments_.add(passes_, &Grid::velocity);
+    if (settings_.transfer.mixes()) increments_.add(passes_, &Grid::force, context.dt);
   }
 
   void move_particles(StepContext& context) override {
@@ -135,7 +135,7 @@ class Continuum final : public Mechanics {
   bool must_sort() const override { return must_sort_; }
   void blocks_renewed() override { generation_ = passes_.fields().front().grid.blocks.generation(); }
   void energies(EnergyReport& report) const override {
-    // What XPIC, FMPM and APIC take is not counted, nor what a mixture gives back beyond the second order.
+    // The energy that XPIC, FMPM and APIC take is not counted, nor that which a mixture gives back beyond order 2.
     if (motion_ != mpm_kernel::kIncrement || settings_.transfer.mixed > 2) report.leave_open();
     if (motion_ == mpm_kernel::kIncrement && (settings_.transfer.flip != 1.0 || settings_.damping != nullptr)) {
       report.add("transfer", NamedEnergy::Kind::dissipated, slip_energy_);

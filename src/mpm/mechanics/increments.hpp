@@ -70,28 +70,15 @@ class Increments {
     }
   }
 
-  /// Adds it to Grid::velocity.
-  void add(FieldPasses<T>& passes) {
+  /// Adds it to the velocity; or, as gained in a time of `over` [s], to the acceleration.
+  void add(FieldPasses<T>& passes, NodalField Grid::*to, double over = 1.0) {
     for (Field& field : passes.fields()) {
       Grid& grid = field.grid;
       const std::ptrdiff_t count = grid.layout.dim() * grid.layout.nodes_per_block();
       passes.each_node_range(grid, [&](int first, int last) {
         const double* from = grid.increment.block(first);
-        double* to = grid.velocity.block(first);
-        for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
-      });
-    }
-  }
-
-  /// Adds it to the acceleration, Grid::force, as gained in `dt` [s].
-  void accelerate(FieldPasses<T>& passes, double dt) {
-    for (Field& field : passes.fields()) {
-      Grid& grid = field.grid;
-      const std::ptrdiff_t count = grid.layout.dim() * grid.layout.nodes_per_block();
-      passes.each_node_range(grid, [&](int first, int last) {
-        const double* from = grid.increment.block(first);
-        double* to = grid.force.block(first);
-        for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i] / dt;
+        double* sum = (grid.*to).block(first);
+        for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) sum[i] += from[i] / over;
       });
     }
   }

@@ -26,16 +26,16 @@ struct FilledPlace {
   double surface = 1.0;  ///< distance of the curved surface over the reach of a whole place; 1 away from it
 };
 
+constexpr std::int64_t kLowestPlace = -1024, kMostPlaces = std::int64_t{1} << 21;  ///< along an axis
+
 /// One number for a place of a lattice.
 inline std::int64_t place_key(std::int64_t i, std::int64_t j, std::int64_t k) {
-  constexpr std::int64_t lowest = -1024, most = std::int64_t{1} << 21;
-  return (i - lowest) + most * ((j - lowest) + most * (k - lowest));
+  return (i - kLowestPlace) + kMostPlaces * ((j - kLowestPlace) + kMostPlaces * (k - kLowestPlace));
 }
-
 /// The place that has this number.
 inline std::array<std::int64_t, 3> place_number(std::int64_t key) {
-  constexpr std::int64_t lowest = -1024, most = std::int64_t{1} << 21;
-  return {key % most + lowest, key / most % most + lowest, key / (most * most) + lowest};
+  return {key % kMostPlaces + kLowestPlace, key / kMostPlaces % kMostPlaces + kLowestPlace,
+          key / (kMostPlaces * kMostPlaces) + kLowestPlace};
 }
 
 class CutCells {

@@ -45,6 +45,8 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--set", force.set, "tool_force: change the scenes, as run_scene does; may be repeated")
       ->allow_extra_args(false);
+  app.add_flag("--places", force.places,
+               "tool_force: the mean and the spread of five places within a cell for each row");
   app.add_flag("--scenes", force.only_write, "tool_force: write the scenes to the folder of --out and run none");
   try {
     app.parse(argc, argv);

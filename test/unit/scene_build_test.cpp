@@ -71,6 +71,26 @@ TEST(SceneBuild, JitterMovesParticlesEvenlyWithinTheBody) {
   EXPECT_EQ(built(solid(box, ", jitter: 0.6")).bodies[0].positions, moved.positions);
 }
 
+TEST(SceneBuild, ASeedGivesOtherPlacesAndTheSameAgain) {
+  const auto places = [](const std::string& rest) {
+    return built(solid("{box: {min: [0, 0, 0], max: [0.2, 0.2, 0.2]}}", ", jitter: 0.3" + rest)).bodies[0].positions;
+  };
+  EXPECT_EQ(places(", seed: 2"), places(", seed: 2"));
+  EXPECT_NE(places(", seed: 2"), places(", seed: 3"));
+  EXPECT_NE(places(", seed: 2"), places(""));
+  const auto refused = [](const std::string& rest) {
+    try {
+      built(solid("{box: {min: [0, 0, 0], max: [0.2, 0.2, 0.2]}}", rest));
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(refused(", seed: 2").find("bodies.body.seed: is that of jitter"), std::string::npos);
+  EXPECT_NE(refused(", jitter: 0.3, seed: 0").find("bodies.body.seed: 0 is not a whole number from 1"),
+            std::string::npos);
+}
+
 TEST(SceneBuild, AJitteredPlanarBodyStaysInItsPlane) {
   const auto d = built(
       "geometry: plane_strain\n"

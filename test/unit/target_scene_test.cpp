@@ -45,10 +45,12 @@ TEST(SceneTarget, EachTargetAndItsOtherKeysAreRead) {
   EXPECT_EQ(scene.target->real_time, 0.5);
   EXPECT_TRUE(scene.target->keeps("grid.cell") && scene.target->keeps("time.cfl"));
   EXPECT_FALSE(scene.target->keeps("method.update"));
-  EXPECT_NEAR(scene.target->length, 0.2, 1e-12) << "the smaller of 0.2 and 0.3 m";
-  const Scene set = parse_scene(kScene, "t", {"target.force_error=5 %", "target.length=80 mm"});
+  EXPECT_NEAR(scene.target->extent, 0.2, 1e-12) << "the smaller of 0.2 and 0.3 m";
+  EXPECT_FALSE(scene.target->length || scene.target->use);
+  const Scene set = parse_scene(kScene, "t", {"target={force_error: 5 %, length: 80 mm, tool: wheel}"});
   EXPECT_NEAR(*set.target->force_error, 0.05, 1e-15);
-  EXPECT_NEAR(set.target->length, 0.08, 1e-15);
+  EXPECT_NEAR(*set.target->length, 0.08, 1e-15);
+  EXPECT_EQ(*set.target->use, pace::ToolUse::wheel);
   EXPECT_FALSE(parse_scene(kScene, "t").target);
 }
 
@@ -64,6 +66,7 @@ TEST(SceneTarget, IsRefusedInOneLineWithItsPlace) {
   for (const char* bad : {"0", "-5 %", "100 %", "3", ".inf"})
     expect_start(with(fmt::format("force_error: {}", bad)), "test.yaml:9: target.force_error: ");
   expect_start(with("real_time: 1, keep: [cell]"), "test.yaml:9: target.keep.0: 'cell' is not known; ");
+  expect_start(with("real_time: 1, tool: plough"), "test.yaml:9: target.tool: 'plough' is not known; ");
   expect_start(with("real_time: 1, length: 0"), "test.yaml:9: target.length: '0' is not greater than 0");
   expect_start(with("real_time: 1, expected: {real_time: 1}"), "test.yaml:9: target.expected: belongs to a recorded");
   expect_start(refusal(scene, {"target=fast"}), "--set target=fast: target: found one value");
@@ -292,22 +295,29 @@ TEST(SceneTarget, TransportThatIsNotSymmetricIsNotHalved) {
                start + "the heat capacity of 'tool'");
 }
 
-TEST(SceneTarget, TheShippedTableHasFiguresForPlanesAndSolids) {
-  const pace::ForceErrors errors = load_force_errors(parse_scene(kScene, "t", {"target.real_time=1"}));
-  const pace::Discretisation usual = {Vec3::Constant(0.1), 2, Precision::float64, UpdateScheme::usavg, 0.5};
-  const auto grid = [&](double cells, GeometryKind geometry) {
-    const auto error = errors.of(usual, cells, geometry);
-    return error ? error->grid : -1.0;
+TEST(SceneTarget, GroundIsToldByTheLawsOfMaterials) {
+  const auto ground = [](const std::string& law) {
+    return ground_of(parse_scene(kScene, "t", {"materials.sand={name: sand, density: 1600, " + law + "}"}).definition);
   };
-  // doc/methods.md, whose figures are rounded to 0.01: blade_in_soil with eight particles a cell.
-  EXPECT_NEAR(grid(4.44, GeometryKind::solid), 0.75, 0.006);
-  EXPECT_NEAR(grid(8.87, GeometryKind::solid), 0.12, 0.006);
-  EXPECT_NEAR(grid(17.75, GeometryKind::solid), 0.06, 0.006);
-  // The root of the mean square of blade_flat, blade_chisel, strip_nc, strip_nq and wheel_in_sand, four particles a
-  // cell. With 4 cells 7, 4, 5 (with 6 cells, more than with 4), 5 (too) and 18 % (with 7.49, its coarsest): 9.4 %.
-  // With 15 cells 1 (the least), 1, 4, 4 (with 12, their finest) and 2 %: 2.8 %.
-  EXPECT_NEAR(grid(4.0, GeometryKind::plane_strain), 0.094, 0.005);
-  EXPECT_NEAR(grid(15.0, GeometryKind::plane_strain), 0.028, 0.003);
+  const std::string elastic = ", young: 1 MPa, poisson: 0.3";
+  EXPECT_EQ(ground("law: drucker_prager, friction_angle: 30 deg" + elastic), pace::Ground::sand);
+  EXPECT_EQ(ground("law: mohr_coulomb, friction_angle: 0, cohesion: 1 kPa" + elastic), pace::Ground::clay);
+  EXPECT_EQ(ground("law: j2_plasticity, yield_stress: 1 kPa" + elastic), pace::Ground::clay);
+  EXPECT_FALSE(ground("law: neo_hookean" + elastic));
+}
+
+TEST(SceneTarget, TheShippedTableHasFiguresForWhatWasMeasuredAndNoOthers) {
+  const pace::ForceErrors errors = load_force_errors(parse_scene(kScene, "t", {"target.real_time=1"}));
+  using pace::Ground;
+  using pace::ToolUse;
+  for (const ToolUse use : {ToolUse::blade, ToolUse::plate, ToolUse::wheel}) {
+    EXPECT_EQ(errors.covers({use, Ground::sand, 1.0}, GeometryKind::plane_strain), use != ToolUse::wheel);
+    EXPECT_EQ(errors.covers({use, Ground::sand, 1.0}, GeometryKind::solid), use == ToolUse::blade);
+    EXPECT_EQ(errors.covers({use, Ground::clay, 1.0}, GeometryKind::axisymmetric), use == ToolUse::plate);
+  }
+  // Half a cell of a blade in the ground was not measured, so nothing is promised there.
+  const pace::Discretisation usual = {Vec3::Constant(0.1), 2, Precision::float64, UpdateScheme::usavg, 0.5};
+  EXPECT_FALSE(errors.of(usual, {ToolUse::blade, Ground::sand, 0.05}, GeometryKind::plane_strain));
 }
 
 }  // namespace target_scene_test

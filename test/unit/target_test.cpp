@@ -16,14 +16,14 @@ using namespace pace;
 // single precision adds 1 % to the force and USF 3 %; the smallest cfl is 0.25, and from there 0.5 changes the force by
 // 1.02/1 - 1 = 2 %, 0.75 by 4 %.
 const char* const kTable =
-    "problem,axes,cells,along,precision,update,cfl,force,cost\n"
-    "blade,2,16,2,double,usavg,0.5,0.99,100\n"
-    "blade,2,4,2,double,usavg,0.5,1.10,100\n"
-    "blade,2,8,2,double,usavg,0.5,1.02,100\n"
-    "blade,2,8,2,single,usavg,0.5,1.0302,50\n"
-    "blade,2,8,2,double,usf,0.5,1.0506,80\n"
-    "blade,2,8,2,double,usavg,0.25,1.00,100\n"
-    "blade,2,8,2,double,usavg,0.75,1.04,100\n";
+    "problem,use,ground,axes,cells,along,precision,update,cfl,force,cost\n"
+    "blade,blade,sand,2,16,2,double,usavg,0.5,0.99,100\n"
+    "blade,blade,sand,2,4,2,double,usavg,0.5,1.10,100\n"
+    "blade,blade,sand,2,8,2,double,usavg,0.5,1.02,100\n"
+    "blade,blade,sand,2,8,2,single,usavg,0.5,1.0302,50\n"
+    "blade,blade,sand,2,8,2,double,usf,0.5,1.0506,80\n"
+    "blade,blade,sand,2,8,2,double,usavg,0.25,1.00,100\n"
+    "blade,blade,sand,2,8,2,double,usavg,0.75,1.04,100\n";
 
 ForceErrors table(const std::string& text = kTable) {
   std::istringstream in(text);
@@ -32,26 +32,45 @@ ForceErrors table(const std::string& text = kTable) {
 
 Discretisation usual() { return {Vec3::Constant(0.1), 2, Precision::float64, UpdateScheme::usavg, 0.5}; }
 
+/// A blade that reaches so many cells of 0.1 m deep into sand.
+ToolInGround blade(double cells) { return {ToolUse::blade, Ground::sand, 0.1 * cells}; }
+
 TEST(ForceErrors, OfAGridAreReadBetweenNumbersOfCells) {
-  const auto grid = [](double cells) { return table().of(usual(), cells, GeometryKind::plane_strain)->grid; };
+  const auto grid = [](double cells) { return table().of(usual(), blade(cells), GeometryKind::plane_strain)->grid; };
   EXPECT_NEAR(grid(4.0), 0.10, 1e-12);
   EXPECT_NEAR(grid(8.0), 0.02, 1e-12);
   EXPECT_NEAR(grid(std::sqrt(32.0)), std::sqrt(0.1 * 0.02), 1e-12);  // in the middle, as powers go
   EXPECT_NEAR(grid(16.0), 0.01, 1e-12);
   EXPECT_NEAR(grid(100.0), 0.01, 1e-12) << "finer than all counts as the finest";
-  EXPECT_FALSE(table().of(usual(), 3.9, GeometryKind::plane_strain)) << "coarser than all has no figure";
-  EXPECT_FALSE(table().of(usual(), 8.0, GeometryKind::solid)) << "nor has a solid";
+  EXPECT_FALSE(table().of(usual(), blade(3.9), GeometryKind::plane_strain)) << "coarser than all has no figure";
+  EXPECT_FALSE(table().of(usual(), blade(8.0), GeometryKind::solid)) << "nor has a solid";
   Discretisation many = usual();
   many.along = 3;
-  EXPECT_FALSE(table().of(many, 8.0, GeometryKind::plane_strain)) << "nor so many particles";
+  EXPECT_FALSE(table().of(many, blade(8.0), GeometryKind::plane_strain)) << "nor so many particles";
 }
 
-TEST(ForceErrors, AProblemCountsWithItsCoarsestGridOnCoarserOnes) {
-  // A second problem with 8 cells alone, 14 % wrong: the mean square of 10 and 14 % with 4 cells, of 2 and 14 with 8.
-  const ForceErrors two = table(std::string(kTable) + "wheel,2,8,2,double,usavg,0.5,0.86,100\n");
-  const auto grid = [&](double cells) { return two.of(usual(), cells, GeometryKind::plane_strain)->grid; };
-  EXPECT_NEAR(grid(4.0), std::sqrt((0.01 + 0.0196) / 2.0), 1e-12);
-  EXPECT_NEAR(grid(8.0), std::sqrt((0.0004 + 0.0196) / 2.0), 1e-12);
+TEST(ForceErrors, TheWorstProblemOfAUseAndAGroundDecides) {
+  // A second problem with 8 cells alone, 14 % wrong.
+  const ForceErrors two = table(std::string(kTable) + "rough,blade,sand,2,8,2,double,usavg,0.5,0.86,100\n");
+  const auto grid = [&](double cells) { return two.of(usual(), blade(cells), GeometryKind::plane_strain)->grid; };
+  EXPECT_NEAR(grid(4.0), 0.14, 1e-12) << "on coarser grids that of its coarsest";
+  EXPECT_NEAR(grid(8.0), 0.14, 1e-12);
+}
+
+TEST(ForceErrors, OtherUsesAndGroundsHaveRowsOfTheirOwn) {
+  const ForceErrors more = table(std::string(kTable) + "wheel,wheel,sand,2,2,2,double,usavg,0.5,0.7,100\n" +
+                                 "disc,plate,clay,2,4,2,double,usavg,0.5,1.3,100\n");
+  const auto grid = [&](std::optional<ToolUse> use, std::optional<Ground> ground, double cells) {
+    const auto error = more.of(usual(), {use, ground, 0.1 * cells}, GeometryKind::plane_strain);
+    return error ? error->grid : -1.0;
+  };
+  EXPECT_NEAR(grid(ToolUse::blade, Ground::sand, 4.0), 0.1, 1e-12);
+  EXPECT_NEAR(grid(ToolUse::wheel, Ground::sand, 2.0), 0.3, 1e-12);
+  EXPECT_EQ(grid(ToolUse::wheel, Ground::sand, 1.9), -1.0);
+  EXPECT_NEAR(grid(ToolUse::plate, Ground::clay, 4.0), 0.3, 1e-12);
+  EXPECT_EQ(grid(ToolUse::plate, Ground::sand, 4.0), -1.0) << "none was measured";
+  EXPECT_FALSE(more.covers({ToolUse::plate, Ground::sand, 0.4}, GeometryKind::plane_strain));
+  EXPECT_NEAR(grid({}, Ground::sand, 4.0), 0.3, 1e-12) << "of a use that is not known the worst";
 }
 
 TEST(ForceErrors, OfPartsAreTheChangesThatTheyAloneMake) {
@@ -59,13 +78,13 @@ TEST(ForceErrors, OfPartsAreTheChangesThatTheyAloneMake) {
   one.precision = Precision::float32;
   one.update = UpdateScheme::usf;
   one.cfl = 0.75;
-  const ForceError error = *table().of(one, 8.0, GeometryKind::plane_strain);
+  const ForceError error = *table().of(one, blade(8.0), GeometryKind::plane_strain);
   EXPECT_NEAR(error.precision, 0.01, 1e-12);
   EXPECT_NEAR(error.update, 0.03, 1e-12);
   EXPECT_NEAR(error.step, 0.04, 1e-12);
   EXPECT_NEAR(error.total(), std::sqrt(4.0 + 1.0 + 9.0 + 16.0) / 100.0, 1e-12);
   one.cfl = 0.25;
-  EXPECT_NEAR(table().of(one, 8.0, GeometryKind::plane_strain)->step, 0.01, 1e-12);  // half of that at 0.5
+  EXPECT_NEAR(table().of(one, blade(8.0), GeometryKind::plane_strain)->step, 0.01, 1e-12);  // half of that at 0.5
   EXPECT_NEAR(table().cost_factor(Precision::float32, UpdateScheme::usavg), 0.5, 1e-12);
   EXPECT_NEAR(table().cost_factor(Precision::float32, UpdateScheme::usf), 1.0, 1e-12) << "without a figure";
 }
@@ -79,13 +98,15 @@ TEST(ForceErrors, ABadTableIsRefusedWithItsLine) {
       return std::string(error.what());
     }
   };
-  const std::string head = "problem,axes,cells,along,precision,update,cfl,force,cost\n";
+  const std::string head = "problem,use,ground,axes,cells,along,precision,update,cfl,force,cost\n";
   EXPECT_EQ(refused("a,b\n").find("line 1: not the header"), 0U);
-  EXPECT_EQ(refused(head + "blade,4,8,2,double,usavg,0.5,1,1\n"), "line 2: '4' is not a whole number from 2 to 3");
-  EXPECT_EQ(refused(head + "blade,2,8,2,half,usavg,0.5,1,1\n"), "line 2: 'half' is no precision");
-  EXPECT_EQ(refused(head + "blade,2,8,2,double,leap,0.5,1,1\n"), "line 2: 'leap' is no update");
-  EXPECT_EQ(refused(head + "blade,2,nan,2,double,usf,0.5,1,1\n"), "line 2: 'nan' is not a number greater than 0");
-  EXPECT_EQ(refused(head + "blade,2,8\n"), "line 2: 3 cells, not 9");
+  EXPECT_EQ(refused(head + "blade,blade,sand,4,8,2,double,usavg,0.5,1,1\n"),
+            "line 2: '4' is not a whole number from 2 to 3");
+  EXPECT_EQ(refused(head + "blade,blade,sand,2,8,2,half,usavg,0.5,1,1\n"), "line 2: 'half' is no precision");
+  EXPECT_EQ(refused(head + "blade,blade,sand,2,8,2,double,leap,0.5,1,1\n"), "line 2: 'leap' is no update");
+  EXPECT_EQ(refused(head + "blade,blade,sand,2,nan,2,double,usf,0.5,1,1\n"),
+            "line 2: 'nan' is not a number greater than 0");
+  EXPECT_EQ(refused(head + "blade,2,8\n"), "line 2: 3 cells, not 11");
   EXPECT_EQ(refused(head).find("no run in double precision"), 0U);
 }
 
@@ -134,7 +155,6 @@ Target asks(std::optional<double> real_time, std::optional<double> force_error) 
   Target target;
   target.real_time = real_time;
   target.force_error = force_error;
-  target.length = 0.8;
   return target;
 }
 
@@ -142,7 +162,7 @@ const std::vector<std::pair<Vec3, int>> kCells = {
     {Vec3(0.1, 1.0, 0.1), 2}, {Vec3(0.05, 1.0, 0.05), 2}, {Vec3(0.2, 1.0, 0.2), 2}, {Vec3(0.4, 1.0, 0.4), 2}};
 
 Candidate chosen(const Target& target) {
-  const auto all = candidates(target, kCells, plane(), table(), costs());
+  const auto all = candidates(target, {blade(8.0)}, kCells, plane(), table(), costs());
   return all[choose(target, all)];
 }
 
@@ -185,12 +205,12 @@ TEST(TargetChoice, OutOfReachIsTheFastestOfBearableError) {
   const Candidate best = chosen(asks(1e9, {}));
   EXPECT_FALSE(reaches(asks(1e9, {}), best));
   EXPECT_LE(best.error.total(), kMostError);
-  const auto all = candidates(asks(1e9, {}), kCells, plane(), table(), costs());
+  const auto all = candidates(asks(1e9, {}), {blade(8.0)}, kCells, plane(), table(), costs());
   for (const Candidate& one : all) EXPECT_TRUE(one.error.total() > kMostError || one.pace <= best.pace * 1.02);
 }
 
 TEST(TargetChoice, TheFrontHasNoneThatIsBeatenAndTheTableShowsIt) {
-  const auto all = candidates(asks(1.0, {}), kCells, plane(), table(), costs());
+  const auto all = candidates(asks(1.0, {}), {blade(8.0)}, kCells, plane(), table(), costs());
   const auto best = front(all);
   ASSERT_GT(best.size(), 3U);
   for (std::size_t i = 1; i < best.size(); ++i) {

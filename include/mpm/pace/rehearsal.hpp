@@ -11,20 +11,23 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "mpm/pace/step_cost.hpp"
+#include "mpm/pace/tool_use.hpp"
 
 namespace mpm::pace {
 
 struct Rehearsal {
-  double coarser = 1.0;        ///< times as wide are the cells
-  double reached = 0.0;        ///< part of the run
-  double wall = 0.0;           ///< time that it took [s]
-  double awake = 1.0;          ///< part of the particles, mean over the steps of the run
-  double touched = 0.0;        ///< part of the steps in which a tool touched
-  double contact = 1.0;        ///< cost of an awake particle's step while a tool touches over that while none does
-  double steps = 1.0;          ///< steps a second in the whole run over those at its start
-  double particle_step = 0.0;  ///< of an awake particle [s]
+  double coarser = 1.0;           ///< times as wide are the cells
+  double reached = 0.0;           ///< part of the run
+  double wall = 0.0;              ///< time that it took [s]
+  double awake = 1.0;             ///< part of the particles, mean over the steps of the run
+  double touched = 0.0;           ///< part of the steps in which a tool touched
+  double contact = 1.0;           ///< cost of an awake particle's step while a tool touches over that while none does
+  double steps = 1.0;             ///< steps a second in the whole run over those at its start
+  double particle_step = 0.0;     ///< of an awake particle [s]
+  std::vector<ToolAtWork> tools;  ///< that were in the ground in what was reached
 };
 
 /// Runs `coarse` for a budget of wall time [s] at most, settling included. `coarser`: how many times its cells are as

@@ -27,7 +27,9 @@ struct Target {
   std::vector<std::string> keep;      ///< of discretisation_keys(): stay as the scene has them
   /// Axis across whose middle plane the scene is its own mirror image: the half above it is modelled.
   std::optional<int> symmetric;
-  double length = 0.0;  ///< of the tool, which cells count across [m]
+  std::optional<ToolUse> use;    ///< of all tools, as the scene says it
+  std::optional<double> length;  ///< that cells count across, as the scene says it [m]
+  double extent = 0.0;           ///< of the smallest tool, where no length is known otherwise [m]
   /// Of a scene for which the choice was made before: what was set in it, "key=value"; it is not made anew.
   std::optional<std::vector<std::string>> chosen;
   double expected_pace = 0.0, expected_error = 0.0;  ///< beside `chosen`
@@ -46,7 +48,7 @@ struct Candidate {
 };
 
 inline constexpr double kSpare = 1.1;        ///< the pace that is asked of a candidate over the pace wanted
-inline constexpr double kMostError = 0.15;   ///< of the force; with more the figures say little
+inline constexpr double kMostError = 0.4;    ///< of the force, at most; with more the figures say little
 inline constexpr double kSameError = 0.001;  ///< of the force
 inline constexpr double kSamePace = 0.02;    ///< relative
 
@@ -67,7 +69,9 @@ struct StepCosts {
 
 /// Every combination of cells, with the particles along an edge that fit them, and of what the target may change and
 /// the rules of methods allow, that there are figures for. `cells`: pairs that fit the scene, its own among them.
-std::vector<Candidate> candidates(const Target& target, const std::vector<std::pair<Vec3, int>>& cells,
+/// `tools`: of which the one with the largest error decides.
+std::vector<Candidate> candidates(const Target& target, const std::vector<ToolInGround>& tools,
+                                  const std::vector<std::pair<Vec3, int>>& cells,
                                   const SimulationDefinition& definition, const ForceErrors& errors,
                                   const StepCosts& costs);
 

@@ -4,6 +4,7 @@
 //   mpm::Simulation simulation(scene, {2});  // on two threads; the same as of mpm::build(scene)
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -47,6 +48,7 @@ struct BodyDefinition {
   std::string material;
   Region region;
   double jitter = 0.0;                            ///< largest initial offset from the lattice along an axis [cells]
+  std::uint64_t seed = 0;                         ///< of the offsets; 0: that of the standard library
   std::array<Function, 3> velocity;               ///< initial, functions of place [m/s]
   std::optional<std::array<Function, 6>> stress;  ///< initial Cauchy stress, xx yy zz yz xz xy, of place [Pa]
   bool yy_follows = false;                        ///< plane strain: yy follows from the other components

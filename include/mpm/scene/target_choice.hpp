@@ -6,6 +6,7 @@
 // expression without `cells` is evaluated at points that follow the cell, so its scene keeps the cell that it has.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,10 @@ namespace mpm {
 /// Pairs of a cell [m] and particles along its edge, the scene's own first: cells from a quarter of its own to four
 /// times as wide.
 std::vector<std::pair<Vec3, int>> fitting_cells(const Scene& scene);
+
+/// What the scene's soil is for the table of errors: clay if all of its materials that yield as soil or metal do so by
+/// cohesion alone, sand if one of them has friction; nothing where no material yields.
+std::optional<pace::Ground> ground_of(const SimulationDefinition& definition);
 
 /// Loads the table that the environment variable MPM_ROS_FORCE_ERRORS names, else config/force_errors.csv of the
 /// package. @throws SceneError at `target` when it cannot be read

@@ -15,7 +15,7 @@ namespace mpm::pace {
 
 namespace {
 
-constexpr const char* kColumns = "problem,axes,cells,along,precision,update,cfl,force,cost";
+constexpr const char* kColumns = "problem,use,ground,axes,cells,along,precision,update,cfl,force,cost";
 constexpr double kReferenceCfl = 0.5;
 constexpr double kLeastError = 0.01;
 constexpr double kSame = 1e-6;  ///< part by which cells and steps of two runs may differ
@@ -29,6 +29,12 @@ bool reference(const ForceRun& run) {
 bool same_grid(const ForceRun& a, const ForceRun& b) {
   return a.problem == b.problem && same(a.cells, b.cells) && a.along == b.along;
 }
+
+bool is_like(const ForceRun& run, const ToolInGround& tool) {
+  return (!tool.use || run.use == *tool.use) && (!tool.ground || run.ground == *tool.ground);
+}
+
+int axes_of_grid(GeometryKind geometry) { return std::max(2, dimensions(geometry)); }
 
 /// Root of the mean square; 0 of none.
 class MeanSquare {
@@ -84,22 +90,30 @@ int whole_cell(const std::string& text, int least, int most) {
   return static_cast<int>(value);
 }
 
+/// The place of a word among names.
+template <std::size_t N>
+std::size_t place_of(const std::array<const char*, N>& names, const std::string& word, const char* what) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) throw FiguresError(fmt::format("'{}' is no {}", word, what));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 ForceRun parse_run(const std::string& line) {
   const std::vector<std::string> words = split_cells(line);
-  if (words.size() != split_cells(kColumns).size()) throw FiguresError(fmt::format("{} cells, not 9", words.size()));
+  if (words.size() != split_cells(kColumns).size()) throw FiguresError(fmt::format("{} cells, not 11", words.size()));
   ForceRun run;
   run.problem = words[0];
-  run.axes = whole_cell(words[1], 2, 3);
-  run.cells = positive_cell(words[2]);
-  run.along = whole_cell(words[3], 1, 5);
-  if (words[4] != "double" && words[4] != "single") throw FiguresError("'" + words[4] + "' is no precision");
-  run.precision = words[4] == "double" ? Precision::float64 : Precision::float32;
-  const auto update = std::find(kUpdateNames.begin(), kUpdateNames.end(), words[5]);
-  if (update == kUpdateNames.end()) throw FiguresError("'" + words[5] + "' is no update");
-  run.update = static_cast<UpdateScheme>(update - kUpdateNames.begin());
-  run.cfl = positive_cell(words[6]);
-  run.force = positive_cell(words[7]);
-  if (!words[8].empty()) run.cost = positive_cell(words[8]);
+  run.use = static_cast<ToolUse>(place_of(kToolUseNames, words[1], "use"));
+  run.ground = static_cast<Ground>(place_of(kGroundNames, words[2], "ground"));
+  run.axes = whole_cell(words[3], 2, 3);
+  run.cells = positive_cell(words[4]);
+  run.along = whole_cell(words[5], 1, 5);
+  if (words[6] != "double" && words[6] != "single") throw FiguresError("'" + words[6] + "' is no precision");
+  run.precision = words[6] == "double" ? Precision::float64 : Precision::float32;
+  run.update = static_cast<UpdateScheme>(place_of(kUpdateNames, words[7], "update"));
+  run.cfl = positive_cell(words[8]);
+  run.force = positive_cell(words[9]);
+  if (!words[10].empty()) run.cost = positive_cell(words[10]);
   return run;
 }
 
@@ -110,22 +124,22 @@ ForceErrors::ForceErrors(std::vector<ForceRun> runs) : runs_(std::move(runs)) {
     throw FiguresError("no run in double precision with usavg and cfl 0.5, which the others are compared with");
 }
 
-std::optional<double> ForceErrors::grid_error(int axes, double cells, int along) const {
+std::optional<double> ForceErrors::grid_error(const ToolInGround& tool, int axes, double cells, int along) const {
   std::map<std::string, std::vector<std::pair<double, double>>> problems;
   for (const ForceRun& run : runs_) {
-    if (run.axes == axes && run.along == along && reference(run))
+    if (run.axes == axes && run.along == along && reference(run) && is_like(run, tool))
       problems[run.problem].emplace_back(run.cells, std::max(kLeastError, std::abs(run.force - 1.0)));
   }
-  MeanSquare mean;
+  double largest = 0.0;
   bool covered = false;
   for (auto& [name, points] : problems) {
     std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     for (std::size_t i = 1; i < points.size(); ++i) points[i].second = std::max(points[i].second, points[i - 1].second);
-    mean.add(between(points, cells));
+    largest = std::max(largest, between(points, cells));
     covered = covered || cells >= points.back().first * (1.0 - kSame);
   }
   if (!covered) return std::nullopt;
-  return mean.root();
+  return largest;
 }
 
 double ForceErrors::change(int axes, Precision precision, UpdateScheme update) const {
@@ -162,9 +176,18 @@ double ForceErrors::step_error(int axes, double cfl) const {
   return before_cfl > 0.0 ? before * cfl / before_cfl : 0.0;
 }
 
-std::optional<ForceError> ForceErrors::of(const Discretisation& one, double cells, GeometryKind geometry) const {
-  const int axes = std::max(2, dimensions(geometry));
-  const std::optional<double> grid = grid_error(axes, cells, one.along);
+bool ForceErrors::covers(const ToolInGround& tool, GeometryKind geometry) const {
+  return std::any_of(runs_.begin(), runs_.end(), [&](const ForceRun& run) {
+    return run.axes == axes_of_grid(geometry) && reference(run) && is_like(run, tool);
+  });
+}
+
+std::optional<ForceError> ForceErrors::of(const Discretisation& one, const ToolInGround& tool,
+                                          GeometryKind geometry) const {
+  const int axes = axes_of_grid(geometry);
+  double widest = 0.0;
+  for (const int axis : mpm::axes_of(geometry)) widest = std::max(widest, one.cell[axis]);
+  const std::optional<double> grid = grid_error(tool, axes, tool.length / widest, one.along);
   if (!grid) return std::nullopt;
   // USL is of first order in the step as USF is, and has no figures of its own.
   const UpdateScheme update = one.update == UpdateScheme::usl ? UpdateScheme::usf : one.update;

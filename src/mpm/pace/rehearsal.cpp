@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLastPart = 0.75;    ///< of the time that was reached; what follows goes on as it was from there on
 constexpr double kLeastAwake = 0.05;  ///< part of the particles, from which on their cost can be told from a step's
+constexpr double kLooks = 40.0;       ///< at the tools in a run
 constexpr double kLeastSteps = 20.0;  ///< with and without contact, from which on their costs can be compared
 
 /// Counts of one sync period.
@@ -65,10 +66,13 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
   options.interrupt = over;
   std::vector<Period> periods;
   double all = 0.0, particles = 0.0;
+  std::optional<Simulation> run;
+  std::optional<ToolsInGround> tools;
   try {
-    Simulation simulation(std::move(coarse), options);
+    Simulation& simulation = run.emplace(std::move(coarse), options);
     particles = static_cast<double>(simulation.particles());
-    double last = clock();
+    tools.emplace(simulation);
+    double last = clock(), look = end / kLooks;
     std::uint64_t steps = 0;
     while (static_cast<double>(simulation.time()) < end) {
       simulation.advance();
@@ -77,6 +81,11 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
       periods.push_back({static_cast<double>(made - steps), part_awake(simulation), now - last, touches(simulation)});
       last = now;
       steps = made;
+      if (static_cast<double>(simulation.time()) >= look) {
+        tools->look(simulation);
+        look += end / kLooks;
+        last = clock();  // it is no part of a period
+      }
       all = end / static_cast<double>(simulation.time()) * static_cast<double>(periods.size());
     }
   } catch (const StoppedError&) {
@@ -91,6 +100,8 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
   found.reached = std::min(1.0, static_cast<double>(periods.size()) / all);
   found.wall = clock() - begun;
   found.particle_step /= particles;
+  tools->look_ahead(*run, end * kTimeUnit);
+  found.tools = tools->found();
   return found;
 }
 

@@ -21,12 +21,6 @@ double shortest_edge(const Vec3& cell, GeometryKind geometry) {
   return least;
 }
 
-double widest_edge(const Vec3& cell, GeometryKind geometry) {
-  double most = 0.0;
-  for (const int axis : axes_of(geometry)) most = std::max(most, cell[axis]);
-  return most;
-}
-
 bool identical(const Discretisation& a, const Discretisation& b) {
   return a.cell == b.cell && a.along == b.along && a.precision == b.precision && a.update == b.update && a.cfl == b.cfl;
 }
@@ -39,6 +33,18 @@ std::vector<T> values(bool keeps, T own, const std::vector<T>& others) {
     if (!keeps && std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
   }
   return all;
+}
+
+/// Of several tools; nothing where one has no figures.
+std::optional<ForceError> largest_error(const ForceErrors& errors, const Discretisation& one,
+                                        const std::vector<ToolInGround>& tools, GeometryKind geometry) {
+  std::optional<ForceError> largest;
+  for (const ToolInGround& tool : tools) {
+    const auto error = errors.of(one, tool, geometry);
+    if (!error) return std::nullopt;
+    if (!largest || error->total() > largest->total()) largest = error;
+  }
+  return largest;
 }
 
 std::string percent(double part) { return fmt::format("{:.2g}", 100.0 * part); }
@@ -89,7 +95,8 @@ double StepCosts::pace(const Discretisation& one) const {
   return sync / (steps * count * particle_step(one.precision, one.update));
 }
 
-std::vector<Candidate> candidates(const Target& target, const std::vector<std::pair<Vec3, int>>& cells,
+std::vector<Candidate> candidates(const Target& target, const std::vector<ToolInGround>& tools,
+                                  const std::vector<std::pair<Vec3, int>>& cells,
                                   const SimulationDefinition& definition, const ForceErrors& errors,
                                   const StepCosts& costs) {
   const Discretisation own = discretisation_of(definition);
@@ -115,8 +122,7 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<std::p
         for (const double cfl : cfls) {
           Candidate one;
           one.what = {cell, along, precision, update, cfl};
-          const double across = target.length / widest_edge(cell, definition.geometry);
-          const auto error = errors.of(one.what, across, definition.geometry);
+          const auto error = largest_error(errors, one.what, tools, definition.geometry);
           if (!error) continue;
           one.error = *error;
           one.pace = costs.pace(one.what);

@@ -117,7 +117,7 @@ void read_bodies(const Map& root, Scene& scene) {
   std::vector<std::string> materials;
   for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
   for (const Value& value : list.elements()) {
-    const Map map(value, {"name", "material", "shape", "jitter", "initial", "cut_out"});
+    const Map map(value, {"name", "material", "shape", "jitter", "seed", "initial", "cut_out"});
     BodyDefinition body;
     body.name = map.at("name").name();
     for (const BodyDefinition& other : scene.bodies) {
@@ -137,6 +137,12 @@ void read_bodies(const Map& root, Scene& scene) {
     if (const auto jitter = map.find("jitter")) {
       body.jitter = jitter->non_negative(kPlain);
       if (body.jitter > 1.0) jitter->fail(fmt::format("{} cells; write at most 1", body.jitter));
+    }
+    if (const auto seed = map.find("seed")) {
+      if (!(body.jitter > 0.0)) seed->fail("is that of jitter, which the body does not have; leave it out");
+      const int number = seed->integer();
+      if (number < 1) seed->fail(fmt::format("{} is not a whole number from 1 on", number));
+      body.seed = static_cast<std::uint64_t>(number);
     }
     if (const auto cut_out = map.find("cut_out")) read_cut_out(*cut_out, body);
     if (const auto initial = map.find("initial")) {

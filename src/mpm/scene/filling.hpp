@@ -51,7 +51,7 @@ class Filling {
   /// visit(const FilledPlace&) for every particle, in the order of their numbers.
   template <class Visit>
   void each(Visit&& visit) const {
-    std::mt19937_64 random;
+    std::mt19937_64 random(body_->seed > 0 ? body_->seed : std::mt19937_64::default_seed);
     each_place([&](FilledPlace place) {
       if (body_->jitter > 0.0) place.centre = jittered(place.centre, random);
       if (!is_cut_out(place.centre)) visit(place);

@@ -14,6 +14,7 @@
 #include "mpm/math/input_file.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/source.hpp"
+#include "mpm/simulation/method_rules.hpp"
 
 namespace mpm {
 namespace {
@@ -85,6 +86,25 @@ std::vector<std::pair<Vec3, int>> fitting_cells(const Scene& scene) {
     }
   }
   return fitting;
+}
+
+std::optional<pace::Ground> ground_of(const SimulationDefinition& definition) {
+  std::optional<pace::Ground> found;
+  for (const MaterialDefinition& material : definition.materials) {
+    double friction = 1.0;
+    if (const auto* own = std::get_if<DruckerPragerDefinition>(&material.law)) {
+      friction = own->friction_angle;
+    } else if (const auto* own = std::get_if<MohrCoulombDefinition>(&material.law)) {
+      friction = own->friction_angle;
+    } else if (std::holds_alternative<J2PlasticityDefinition>(material.law)) {
+      friction = 0.0;
+    } else if (!is_soil(make_law(material))) {
+      continue;
+    }
+    if (friction > 0.0) return pace::Ground::sand;
+    found = pace::Ground::clay;
+  }
+  return found;
 }
 
 pace::ForceErrors load_force_errors(const Scene& scene) {

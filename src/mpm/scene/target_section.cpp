@@ -24,7 +24,7 @@ double length_of(const Surface& surface, GeometryKind geometry) {
   return std::isfinite(length) ? length : std::numeric_limits<double>::infinity();
 }
 
-void find_length(const Value& section, Scene& scene) {
+void find_extent(const Value& section, Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
   double least = std::numeric_limits<double>::infinity();
   std::string name;
@@ -39,11 +39,7 @@ void find_length(const Value& section, Scene& scene) {
         "no rigid body has an end along each axis, so cells across the tool cannot be counted; write target.length, "
         "such as 0.1 m");
   }
-  scene.target->length = least;
-  scene.choices.emplace_back("target.length",
-                             fmt::format("{:.4g} m: of '{}', {}", least, name,
-                                         dimensions(definition.geometry) == 3 ? "the middle one of its three extents"
-                                                                              : "the smaller of its extents"));
+  scene.target->extent = least;
 }
 
 double fraction(const Value& value) {
@@ -101,8 +97,8 @@ void read_symmetric(const Value& value, Scene& scene) {
 void read_target(const Map& root, Scene& scene) {
   const auto section = root.find("target");
   if (!section) return;
-  const Map map(*section,
-                {"real_time", "force_error", "keep", "length", "symmetric", "chosen", "before", "asked", "expected"});
+  const Map map(*section, {"real_time", "force_error", "keep", "tool", "length", "symmetric", "chosen", "before",
+                           "asked", "expected"});
   pace::Target& target = scene.target.emplace();
   const auto real_time = map.find("real_time"), error = map.find("force_error");
   if (real_time && error) {
@@ -131,10 +127,14 @@ void read_target(const Map& root, Scene& scene) {
     }
   }
   if (const auto keep = map.find("keep")) target.keep = read_keep(*keep);
+  if (const auto tool = map.find("tool")) {
+    const std::vector<std::string> uses(pace::kToolUseNames.begin(), pace::kToolUseNames.end());
+    target.use = static_cast<pace::ToolUse>(tool->choice(uses));
+  }
   if (const auto length = map.find("length")) {
     target.length = length->positive(kLength);
   } else {
-    find_length(*section, scene);
+    find_extent(*section, scene);
   }
   read_chosen(map, target);
   if (const auto symmetric = map.find("symmetric")) read_symmetric(*symmetric, scene);

@@ -17,6 +17,7 @@
 #include "mpm/scene/target_choice.hpp"
 #include "mpm/scene/target_half.hpp"
 #include "mpm/scene/target_record.hpp"
+#include "mpm_ros/run/judged_tools.hpp"
 #include "mpm_ros/run/scene_rehearsal.hpp"
 
 namespace mpm_ros {
@@ -97,7 +98,8 @@ class Chooser {
 
   Aim aim() {
     calibrate();
-    candidates_ = mpm::pace::candidates(target_, fitting_, scene_.definition, errors_, costs_);
+    tools_ = judged_tools(scene_, rehearsal_, errors_);
+    candidates_ = mpm::pace::candidates(target_, tools_.all, fitting_, scene_.definition, errors_, costs_);
     std::size_t chosen = 0;
     for (int tries = 0;; ++tries) {
       if (candidates_.empty()) fail();
@@ -120,7 +122,9 @@ class Chooser {
     for (int along = 1; along <= kMostAlong; ++along) {
       Discretisation fine = own_;
       fine.along = along;
-      if (errors_.of(fine, kManyCells, geometry_)) known.push_back(along);
+      mpm::pace::ToolInGround wide = tools_.all.front();
+      wide.length = kManyCells * own_.cell.maxCoeff();
+      if (errors_.of(fine, wide, geometry_)) known.push_back(along);
     }
     const bool has_figures = std::any_of(fitting_.begin(), fitting_.end(), [&](const auto& pair) {
       if (target_.keeps("grid.cell") && pair.first != own_.cell) return false;
@@ -139,7 +143,7 @@ class Chooser {
     throw mpm::SceneError(fmt::format(
         "{}: target: there are no figures for {} cells across {:.3g} m of tool, with a cell that fits the grid and the "
         "bodies; leave target out, use a smaller grid.cell, or write target.length",
-        scene_.path, std::round(target_.length / own_.cell.x()), target_.length));
+        scene_.path, std::round(tools_.all.front().length / own_.cell.x()), tools_.all.front().length));
   }
 
   int in_a_cell(int along) const {
@@ -270,15 +274,21 @@ class Chooser {
     const std::vector<std::string> lines = lines_of(chosen.what);
     const double error = chosen.error.total();
     Aim told;
-    told.scene = mpm::with_chosen(scene_, lines, chosen.pace, error);
+    told.scene = mpm::with_chosen(scene_, lines, chosen.pace, tools_.unknown.empty() ? error : 0.0);
     told.scene.choices.emplace_back("target", fmt::format("{}: {}", mpm::pace::target_text(target_),
                                                           mpm::pace::discretisation_text(chosen.what, geometry_)));
     const auto part = [](const char* name, double value) { return fmt::format("{} {}", name, percent_text(value)); };
+    const std::string parts =
+        fmt::format("{}, {}, {}, {}", part("grid", chosen.error.grid), part("precision", chosen.error.precision),
+                    part("update", chosen.error.update), part("step", chosen.error.step));
     told.news.push_back(fmt::format(
-        "target {}: {}; {:.2g} of real time expected, with an error of the tool's force of about {} ({}, {}, {}, {})",
+        "target {}: {}; {:.2g} of real time expected, with an error of the tool's force {}",
         mpm::pace::target_text(target_), mpm::pace::discretisation_text(chosen.what, geometry_), chosen.pace,
-        percent_text(error), part("grid", chosen.error.grid), part("precision", chosen.error.precision),
-        part("update", chosen.error.update), part("step", chosen.error.step)));
+        tools_.unknown.empty()
+            ? fmt::format("of {} at most ({}), counting cells across {}", percent_text(error), parts, tools_.text())
+            : fmt::format("that is not known: none was measured for {}, and the choice is by those of "
+                          "other tools",
+                          tools_.unknown)));
     told.news.push_back(lines.empty() ? "the scene's own keys are the choice"
                                       : "to run the same without a target, " + repeat_text(lines));
     if (target_.symmetric)
@@ -330,6 +340,7 @@ class Chooser {
   std::optional<mpm::pace::Rehearsal> rehearsal_;
   mpm::pace::StepCosts costs_;
   std::vector<Candidate> candidates_;
+  JudgedTools tools_;
   bool left_out_ = false;  ///< of candidates, one that could not be run
 };
 

@@ -69,7 +69,8 @@ nlohmann::ordered_json target_json(const mpm::pace::Target& target, double reach
   if (target.real_time) json["real_time"] = *target.real_time;
   if (target.force_error) json["force_error"] = *target.force_error;
   json["chosen"] = target.chosen.value_or(std::vector<std::string>{});
-  json["expected"] = {{"real_time", target.expected_pace}, {"force_error", target.expected_error}};
+  json["expected"] = {{"real_time", target.expected_pace}};
+  if (target.expected_error > 0.0) json["expected"]["force_error"] = target.expected_error;
   json["reached"] = {{"real_time", reached}};
   return json;
 }
@@ -166,9 +167,11 @@ std::string RunSummary::text() const {
       threads, threads == 1 ? "" : "s", isa, mpm::precision_name(definition.method.precision),
       1e-6 * static_cast<double>(peak_memory), ranks == 1 ? "" : " at most on a rank");
   if (target) {
-    text += fmt::format(
-        "  target {}: reached {:.2g} of real time, {:.2g} was expected, with an error of the force of {:.2g} %\n",
-        mpm::pace::target_text(*target), real_time_factor(), target->expected_pace, 100.0 * target->expected_error);
+    text +=
+        fmt::format("  target {}: reached {:.2g} of real time, {:.2g} was expected, with an error of the force {}\n",
+                    mpm::pace::target_text(*target), real_time_factor(), target->expected_pace,
+                    target->expected_error > 0.0 ? fmt::format("of {:.2g} %", 100.0 * target->expected_error)
+                                                 : "that is not known");
   }
   text += fmt::format("  time step {:.4g} to {:.4g} s, limited by {}\n", state.step.dt_min, state.step.dt_max,
                       state.step.limited_by);

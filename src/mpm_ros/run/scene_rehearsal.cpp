@@ -39,10 +39,13 @@ std::optional<Rehearsal> rehearse_scene(const mpm::Scene& scene, const Forecast&
   if (!(timed.simulated > 0.0)) return std::nullopt;
   const int axes = mpm::dimensions(scene.definition.geometry);
   const double seconds = timed.wall_seconds() / std::max(timed.cost.awake, 1e-3);  // all of it may wake
-  const double times = std::clamp(mpm::pace::cell_factor(seconds, budget, axes), kLeastCoarser, kMostCoarser);
-  const bool finest = times == kLeastCoarser;
-  const auto first = on_cells(scene, times, timed.threads, isa, (finest ? 1.0 : kOfFirst) * budget, stop);
-  if (!first || finest || first->reached < 1.0) return first;
+  double times = std::clamp(mpm::pace::cell_factor(seconds, budget, axes), kLeastCoarser, kMostCoarser);
+  auto first = on_cells(scene, times, timed.threads, isa, (times > kLeastCoarser ? kOfFirst : 1.0) * budget, stop);
+  while (!first && times > kLeastCoarser) {  // bodies may be too small for so wide cells
+    times = std::max(kLeastCoarser, kFiner * times);
+    first = on_cells(scene, times, timed.threads, isa, budget, stop);
+  }
+  if (!first || times == kLeastCoarser || first->reached < 1.0) return first;
   const double left = (budget - first->wall) / kEnough;
   const double finer = std::max(kLeastCoarser, times * mpm::pace::cell_factor(first->wall, left, axes));
   if (finer > kFiner * times) return first;

@@ -23,8 +23,6 @@ class Measure;
 struct Setup {
   double cells = 8.0;    ///< across the depth or width; blades take halves, too
   std::string law = {};  ///< "mohr_coulomb", "drucker_prager/plane_strain" with its match; the problem's own when empty
-  /// Part of a cell by which tool and ground lie beside rows of nodes along x and above them along z, in [0, 1).
-  std::array<double, 2> beside = {0.0, 0.0};
 };
 
 /// What is known of the force.
@@ -53,7 +51,7 @@ struct Problem {
   double wave_speed = 0.0;      ///< of the material, elastic [m/s]
   std::string law = "drucker_prager/plane_strain";  ///< of the soil, unless another is asked for
   bool quick = false;                               ///< the short suite runs it
-  bool has_places = false;                          ///< it can lie beside rows of nodes
+  std::array<bool, 2> has_places = {};              ///< it can be moved within a cell along x, along z
   double finest = 24.0;                             ///< most cells of the long suite, where a run takes minutes
   Box pressed;                                      ///< where pressure is looked at, from the tool's origin [m]
   /// Text of its scene. @throws StudyError for a setup that it cannot have

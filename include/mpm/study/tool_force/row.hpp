@@ -24,6 +24,8 @@ struct ForceRow {
   Known known = Known::exact;
   double force = kUnknown;       ///< mean over the problem's travel, along the push [N]
   double over_exact = kUnknown;  ///< force over what is exact, or over the upper bound
+  int places = 1;                ///< within a cell, of which the row is the mean
+  double spread = kUnknown;      ///< standard deviation of `over_exact` over them
   double error = kUnknown;  ///< distance of the force from what is exact, or from the interval of the bounds, over it
   double lift = kUnknown;   ///< mean force along `free` over that along the push
   double ripple =

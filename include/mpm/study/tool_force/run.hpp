@@ -14,7 +14,7 @@ namespace mpm::study::tool_force {
 
 /// Changes to a scene, as `run_scene --set` takes them: "contact.method=nodes". Three more change the
 /// problem: "law=mohr_coulomb" the law of the soil, "speed=0.5" the tool's speed by a factor, and "beside=0,0.5" lays
-/// tool and ground of a blade that part of a cell beside rows of nodes along x and above them along z.
+/// tool and ground that part of a cell beside rows of nodes along x and above them along z.
 using Overrides = std::vector<std::string>;
 
 struct ForceOptions {
@@ -22,6 +22,7 @@ struct ForceOptions {
   std::vector<double> cells;          ///< those of the short or the long suite when empty
   std::vector<std::string> vary;      ///< "key=value|value|…": all combinations are run
   Overrides set;                      ///< on all
+  bool places = false;                ///< each row is that of five places within a cell
   bool full = false;
   bool only_write = false;  ///< writes the scenes to `folder` and runs none
   std::string folder;       ///< for tool_force.json and scenes
@@ -32,6 +33,9 @@ std::vector<Overrides> variants_of(const std::vector<std::string>& vary);
 
 /// Never throws for what a run does: that is the row's status and message.
 ForceRow run_row(const Problem& problem, double cells, const Overrides& variant, const Overrides& set = {});
+
+/// The same at five places within a cell: mean_of() their rows.
+ForceRow run_places(const Problem& problem, double cells, const Overrides& variant, const Overrides& set = {});
 
 /// @param progress is given one line a run
 /// @throws StudyError for an unknown problem, or a folder that cannot be written

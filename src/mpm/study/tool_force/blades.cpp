@@ -57,13 +57,8 @@ std::string tool_section(const Problem& problem, const Kind& kind) {
 
 std::string blade_scene(const Problem& problem, const Setup& setup, const Kind& kind) {
   const double h = kDepth / setup.cells;
-  // Faces of the domain lie on nodes: whole cells from the surface and from the front, and the part of a cell by which
-  // these lie beside nodes.
   const auto cells = [&](double lengths) { return h * std::ceil(lengths * setup.cells); };
-  const auto [aside, above] = setup.beside;
-  const double low = -cells(2.0) - above * h, left = -cells(1.5) - aside * h, side = cells(3.0);
-  const double right = cells(4.0) + (aside > 0.0 ? 1.0 - aside : 0.0) * h;
-  const double high = cells(1.5) + (above > 0.0 ? 1.0 - above : 0.0) * h;
+  const double low = -cells(2.0), left = -cells(1.5), right = cells(4.0), side = cells(3.0), high = cells(1.5);
   const bool solid = kind.solid;
   return fmt::format(
              "geometry: {}\n"
@@ -97,7 +92,7 @@ Problem blade(const std::string& name, const std::string& title, const std::stri
   problem.to = 1.4 * kMean;
   problem.moves_on = true;
   problem.quick = true;
-  problem.has_places = true;
+  problem.has_places = {true, true};
   problem.speed = 0.05;
   problem.ramp = 0.02;
   problem.wave_speed = elastic_wave(kDensity, kYoung, kPoisson);

@@ -87,6 +87,7 @@ Problem pile(bool rough) {
         "between 9.14 (Randolph and Houlsby (1984)) and 9.20 c D (Martin and Randolph (2006)) a metre";
   }
   problem.push = Vec3::UnitX();
+  problem.has_places = {true, false};
   problem.from = 0.08;
   problem.to = 0.14;
   problem.moves_on = true;
@@ -107,6 +108,7 @@ Problem wedge() {
   problem.answer_text =
       fmt::format("{:.2f} c a metre of depth and of length, rigid-plastic: Hill, Lee and Tupper (1947)", exact.force);
   problem.push = -Vec3::UnitZ();
+  problem.has_places = {false, true};
   problem.grows = true;
   problem.from = 0.6;
   problem.to = 1.0;
@@ -159,6 +161,7 @@ Problem cone() {
   problem.wave_speed = elastic_wave(kDensity, kConeYoung, kPoisson);
   problem.law = "mohr_coulomb";
   problem.push = -Vec3::UnitZ();
+  problem.has_places = {false, true};
   problem.from = 0.3;
   problem.to = 0.6;
   problem.moves_on = true;

@@ -83,6 +83,7 @@ Problem drag(const std::string& name, const std::string& title, double length) {
   problem.push = Vec3::UnitX();
   problem.length = length;
   problem.moves_on = true;
+  problem.has_places = {true, true};
   problem.speed = 0.05;
   problem.ramp = 0.02;
   problem.wave_speed = elastic_wave(kDensity, kYoung, kPoisson);

@@ -49,7 +49,7 @@ std::string surcharge_section(const Ground& ground, double cell, double right) {
       "loads:\n"
       "  - {{pressure: {{body: bed, edge: z_max, value: {:g}, region: {{box: {{min: [{:.17g}, {:.17g}], max: [{:.17g}, "
       "0]}}}}}}}}\n",
-      ground.surcharge, 0.5 * kWidth, -0.5 * cell, right);
+      ground.surcharge, 0.5 * kWidth, -0.3 * cell, right);
 }
 
 std::string footing_scene(const Problem& problem, const Setup& setup, const Footing& footing) {
@@ -91,6 +91,7 @@ Problem make(const std::string& name, const std::string& title, const std::strin
   problem.answer = answer;
   problem.whole = footing.round ? 1.0 : 2.0;
   problem.push = -Vec3::UnitZ();
+  problem.has_places = {false, true};
   problem.length = kWidth;
   problem.from = 0.0075;
   problem.to = 0.0125;

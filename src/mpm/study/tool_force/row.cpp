@@ -38,6 +38,8 @@ Json of_row(const ForceRow& row) {
   json["steps"] = row.steps;
   json["force"] = number(row.force);
   json["over_exact"] = number(row.over_exact);
+  json["places"] = row.places;
+  json["spread"] = number(row.spread);
   json["error"] = number(row.error);
   json["lift"] = number(row.lift);
   json["ripple"] = number(row.ripple);
@@ -53,16 +55,18 @@ Json of_row(const ForceRow& row) {
 }  // namespace
 
 std::string table_header() {
-  return fmt::format("{:<20}{:>6}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}  {}", "problem", "cells", "F/exact",
-                     "error", "lift", "ripple", "scatter", "unloaded", "energy", "cpu [s]", "rtf", "steps", "variant");
+  return fmt::format("{:<20}{:>6}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}  {}", "problem", "cells",
+                     "F/exact", "spread", "error", "lift", "ripple", "scatter", "unloaded", "energy", "cpu [s]", "rtf",
+                     "steps", "variant");
 }
 
 std::string table_line(const ForceRow& row) {
-  std::string line = fmt::format(
-      "{:<20}{:>6g}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}  {}", row.problem, row.cells,
-      cell(row.over_exact, "{:.3f}"), cell(row.error, "{:.3f}"), cell(row.lift, "{:.3f}"), cell(row.ripple, "{:.3f}"),
-      cell(row.scatter, "{:.3f}"), cell(row.unloaded, "{:.3f}"), cell(row.imbalance, "{:.3f}"),
-      cell(row.cpu_seconds, "{:.3g}"), cell(row.real_time_factor, "{:.3g}"), row.steps, row.variant);
+  std::string line =
+      fmt::format("{:<20}{:>6g}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}  {}", row.problem, row.cells,
+                  cell(row.over_exact, "{:.3f}"), cell(row.spread, "{:.3f}"), cell(row.error, "{:.3f}"),
+                  cell(row.lift, "{:.3f}"), cell(row.ripple, "{:.3f}"), cell(row.scatter, "{:.3f}"),
+                  cell(row.unloaded, "{:.3f}"), cell(row.imbalance, "{:.3f}"), cell(row.cpu_seconds, "{:.3g}"),
+                  cell(row.real_time_factor, "{:.3g}"), row.steps, row.variant);
   if (row.status != "ok") line += fmt::format("  {}: {}", row.status, row.message);
   return line;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 #include "mpm/study/runner.hpp"
 #include "mpm/study/suite.hpp"
 #include "mpm/study/tool_force/force_measure.hpp"
+#include "mpm/study/tool_force/places.hpp"
 
 namespace mpm::study::tool_force {
 namespace {
@@ -36,9 +36,10 @@ std::string joined(const Overrides& overrides) {
 struct Run {
   Problem problem;
   Setup setup;
+  Place place;
   Overrides keys;  ///< of the scene
 
-  Scene scene() const { return parse_scene(problem.scene(problem, setup), problem.name, keys); }
+  Scene scene() const { return parse_scene(moved(problem, problem.scene(problem, setup), place), problem.name, keys); }
 };
 
 /// The value of "name=value", if it is that.
@@ -48,21 +49,16 @@ std::optional<std::string> value_of(const std::string& text, const std::string& 
 }
 
 /// Reads "0.5,0.25", parts of a cell along x and z.
-std::array<double, 2> place_beside(const Problem& problem, const std::string& text) {
-  std::array<double, 2> parts{};
+Place read_place(const std::string& text) {
+  Place place{};
   char end = 0;
-  const int read = std::sscanf(text.c_str(), "%lf,%lf%c", &parts[0], &parts[1], &end);
-  const bool right = read == 2 && std::all_of(parts.begin(), parts.end(), [](double p) { return p >= 0.0 && p < 1.0; });
-  if (!right) {
-    throw StudyError("'beside=" + text +
-                     "' is no place within a cell; write parts of a cell along x and z, such as beside=0,0.5");
-  }
-  if (!problem.has_places) throw StudyError("beside: " + problem.name + " is made on rows of nodes only; leave it out");
-  return parts;
+  if (std::sscanf(text.c_str(), "%lf,%lf%c", &place[0], &place[1], &end) == 2) return place;
+  throw StudyError("'beside=" + text +
+                   "' is no place within a cell; write parts of a cell along x and z, such as beside=0,0.5");
 }
 
 Run resolve(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
-  Run run{problem, {cells, {}}, {}};
+  Run run{problem, {cells, {}}, {}, {}};
   for (const Overrides* list : {&set, &variant}) {
     for (const std::string& one : *list) {
       if (const auto law = value_of(one, "law")) {
@@ -73,7 +69,7 @@ Run resolve(const Problem& problem, double cells, const Overrides& variant, cons
           throw StudyError("'" + one + "' is no factor of the tool's speed; write one such as speed=0.5");
         run.problem.speed *= factor;
       } else if (const auto beside = value_of(one, "beside")) {
-        run.setup.beside = place_beside(problem, *beside);
+        run.place = read_place(*beside);
       } else {
         run.keys.push_back(one);
       }
@@ -166,6 +162,16 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
   return row;
 }
 
+ForceRow run_places(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
+  std::vector<ForceRow> rows;
+  for (const Place& place : five_places(problem)) {
+    Overrides there = set;
+    there.push_back(fmt::format("beside={},{}", place[0], place[1]));
+    rows.push_back(run_row(problem, cells, variant, there));
+  }
+  return mean_of(rows);
+}
+
 void run_tool_force(const ForceOptions& options, const std::function<void(const std::string&)>& progress) {
   std::vector<const Problem*> chosen;
   for (const std::string& name : options.problems) chosen.push_back(&find_problem(name));
@@ -196,7 +202,8 @@ void run_tool_force(const ForceOptions& options, const std::function<void(const 
           progress(path.string());
           continue;
         }
-        rows.push_back(run_row(*problem, count, variants[v], options.set));
+        rows.push_back(options.places ? run_places(*problem, count, variants[v], options.set)
+                                      : run_row(*problem, count, variants[v], options.set));
         progress(table_line(rows.back()));
         std::ofstream file = create(folder / "tool_force.json");  // after each run, so that none is lost
         write_json(file, rows);

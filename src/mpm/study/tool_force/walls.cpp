@@ -52,6 +52,7 @@ Problem wall(const std::string& name, const std::string& title, const std::strin
       " Sand (friction 30°, associated flow, 1600 kg/m³, E = 20 MPa = 6400 ρgd) at rest, depth 0.2 m. Cells: over "
       "the depth.";
   problem.push = Vec3::UnitX();
+  problem.has_places = {true, false};
   problem.length = kDepth;
   problem.speed = 0.02;
   problem.ramp = 0.02;

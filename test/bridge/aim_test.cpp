@@ -196,7 +196,7 @@ TEST_F(AimTest, NoErrorIsPromisedOfWhatWasNotMeasured) {
                   "materials.sand={name: sand, law: neo_hookean, density: 1600, young: 1 MPa, "
                   "poisson: 0.3}"};
   EXPECT_EQ(run(), RunSceneResult::bad_input);
-  EXPECT_NE(err_.str().find("no error was measured for a plate in what is no soil"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("no error was measured for a plate in other material"), std::string::npos) << err_.str();
 }
 
 // On another machine there may be another table, or none; the recorded choice needs neither it nor any timing.

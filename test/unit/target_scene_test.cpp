@@ -304,6 +304,9 @@ TEST(SceneTarget, GroundIsToldByTheLawsOfMaterials) {
   EXPECT_EQ(ground("law: mohr_coulomb, friction_angle: 0, cohesion: 1 kPa" + elastic), pace::Ground::clay);
   EXPECT_EQ(ground("law: j2_plasticity, yield_stress: 1 kPa" + elastic), pace::Ground::clay);
   EXPECT_FALSE(ground("law: neo_hookean" + elastic));
+  EXPECT_FALSE(
+      ground("law: mu_i, mu_s: 0.38, mu_2: 0.64, I_0: 0.28, grain_diameter: 1 mm, grain_density: 2500" + elastic))
+      << "no tool was measured in it";
 }
 
 TEST(SceneTarget, TheShippedTableHasFiguresForWhatWasMeasuredAndNoOthers) {

@@ -66,6 +66,8 @@ TEST(ToolUse, AWheelRolls) {
   ASSERT_EQ(rolling.size(), 1U);
   EXPECT_EQ(rolling[0].use, ToolUse::wheel);
   EXPECT_NEAR(rolling[0].depth, 0.02, 1e-3);
+  const auto fast = found(wheel, "[0.6, 0.48]", "velocity: [0.4, 0], rotation_rate: 300");  // six radians a look
+  EXPECT_EQ(fast[0].use, ToolUse::wheel);
   EXPECT_EQ(found(wheel, "[0.6, 0.48]", "velocity: [0.4, 0]")[0].use, ToolUse::blade) << "it is dragged";
   EXPECT_FALSE(found(wheel, "[0.6, 0.48]", "velocity: [0, 0]")[0].use) << "it stands";
 }

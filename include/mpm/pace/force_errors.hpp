@@ -11,7 +11,7 @@
 //
 // The error of grid and particles is that of the reference, double, USAVG, cfl 0.5, against the answer: of a problem
 // the largest with so many cells or more, and 1 % at least, since less is met by accident; between two numbers of cells
-// a power of them; on grids coarser than a problem was run on that of its coarsest, which is no promise; over the
+// a power of them; on grids coarser than a problem was run on that of its coarsest; over the
 // problems of a use and a ground the largest, since a robot's tool may be like any of them. Precision and update add
 // the change of the force that they alone make in a run of the table, root of the mean square too; so does the step,
 // from the smallest cfl of the table on, in proportion between two of them. The whole is the root of the sum of the

@@ -27,7 +27,7 @@ struct Rehearsal {
   double contact = 1.0;           ///< cost of an awake particle's step while a tool touches over that while none does
   double steps = 1.0;             ///< steps a second in the whole run over those at its start
   double particle_step = 0.0;     ///< of an awake particle [s]
-  std::vector<ToolAtWork> tools;  ///< that were in the ground in what was reached
+  std::vector<ToolAtWork> tools;  ///< in the ground in what was reached, or, by functions, later
 };
 
 /// Runs `coarse` for a budget of wall time [s] at most, settling included. `coarser`: how many times its cells are as

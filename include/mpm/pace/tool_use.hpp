@@ -23,11 +23,11 @@ inline constexpr std::array<const char*, 3> kToolUseNames = {"blade", "plate", "
 /// A tool in the ground.
 struct ToolAtWork {
   int body = 0;                ///< index of the rigid body
-  std::optional<ToolUse> use;  ///< nothing: it did not move
+  std::optional<ToolUse> use;  ///< nothing: it did not move, as one that commands move
   double depth = 0.0;          ///< to which it reaches below the ground as it was at the start, at most [m]
   double width = 0.0;          ///< the smaller of its extents across gravity [m]
-  /// What cells count across in such a use [m]: the width of a plate, the depth of a blade and a wheel, and the smaller
-  /// of the two where the use is not known.
+  /// What cells count across in such a use [m]: the width of a plate that has ends, the depth of a blade and a wheel,
+  /// and the smaller of the two where the use is not known.
   double length(std::optional<ToolUse> in_use) const;
 };
 
@@ -53,7 +53,8 @@ class ToolsInGround {
   /// Height of the ground in the column of cells at a point [m]; nothing where there is none.
   std::optional<double> ground_at(const Vec3& point) const;
   double depth_of(const Surface& surface, const Pose& pose) const;
-  void look_at(Way& way, const Surface& surface, const Pose& pose) const;
+  /// `turned`: by how much since the look before [rad], which may be more than a turn.
+  void look_at(Way& way, const Surface& surface, const Pose& pose, double turned) const;
 
   std::vector<int> axes_, level_;  ///< of the scene, and those of them across gravity
   int up_ = 2;
@@ -62,6 +63,7 @@ class ToolsInGround {
   std::array<int, 3> columns_{1, 1, 1};
   std::vector<double> heights_;  ///< of columns, along up; -infinity in those without ground
   std::vector<Way> ways_;
+  double last_ = 0.0;  ///< time of the look before [s]
 };
 
 }  // namespace mpm::pace

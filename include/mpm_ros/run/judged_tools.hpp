@@ -21,8 +21,9 @@ struct JudgedTools {
   std::string text() const;
 };
 
-/// What the rehearsal found of tools, or else the scene says. One that was not measured is judged by all that were,
-/// with cells counted across the whole of it, and no error may be promised.
+/// What the rehearsal found of tools, those that move if any does, or else what the scene says. One that was not
+/// measured, or whose depth is not known, is judged by all that were measured in its ground, with cells counted across
+/// the smallest tool's extent, and no error may be promised.
 /// @param scene with a target
 /// @throws mpm::SceneError for a target of an error that none can promise
 JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace::Rehearsal>& rehearsal,

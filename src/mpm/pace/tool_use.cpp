@@ -20,7 +20,7 @@ constexpr double kNoGround = -std::numeric_limits<double>::infinity();
 
 double ToolAtWork::length(std::optional<ToolUse> in_use) const {
   if (!in_use) return std::min(depth, width);
-  return *in_use == ToolUse::plate ? width : depth;
+  return *in_use == ToolUse::plate && std::isfinite(width) ? width : depth;
 }
 
 ToolsInGround::ToolsInGround(const Simulation& simulation) {
@@ -115,7 +115,7 @@ double ToolsInGround::depth_of(const Surface& surface, const Pose& pose) const {
   return deepest;
 }
 
-void ToolsInGround::look_at(Way& way, const Surface& surface, const Pose& pose) const {
+void ToolsInGround::look_at(Way& way, const Surface& surface, const Pose& pose, double turned) const {
   const Pose before = std::exchange(way.before, pose);
   const double depth = depth_of(surface, pose);
   if (!(depth > 0.0)) return;
@@ -132,13 +132,14 @@ void ToolsInGround::look_at(Way& way, const Surface& surface, const Pose& pose) 
   for (const int axis : level_) across += moved[axis] * moved[axis];
   way.across += std::sqrt(across);
   way.along += std::abs(moved[up_]);
-  way.rim += radius * before.orientation.angularDistance(pose.orientation);
+  way.rim += radius * turned;
 }
 
 void ToolsInGround::look(const Simulation& simulation) {
+  const double now = static_cast<double>(simulation.time()) * kTimeUnit, passed = now - std::exchange(last_, now);
   for (std::size_t b = 0; b < ways_.size(); ++b) {
     const RigidBody& body = simulation.rigid_body(static_cast<int>(b));
-    look_at(ways_[b], body.surface(), body.pose());
+    look_at(ways_[b], body.surface(), body.pose(), body.twist().angular.norm() * passed);
   }
 }
 
@@ -150,6 +151,7 @@ void ToolsInGround::look_ahead(const Simulation& simulation, double end) {
     if (definition.free || body.drive() != Drive::functions) continue;
     Pose pose = body.pose();
     for (int i = 0; i < kLooksAhead; ++i) {
+      double turned = 0.0;
       for (int k = 0; k < kStepsOfLook; ++k) {
         const double t = from + between * (i + (k + 0.5) / kStepsOfLook);
         Twist twist;
@@ -158,8 +160,9 @@ void ToolsInGround::look_ahead(const Simulation& simulation, double end) {
           twist.angular[axis] = definition.rotation_rate[axis](t);
         }
         pose = integrate(pose, twist, between / kStepsOfLook);
+        turned += twist.angular.norm() * between / kStepsOfLook;
       }
-      look_at(ways_[b], body.surface(), pose);
+      look_at(ways_[b], body.surface(), pose, turned);
     }
   }
 }

@@ -14,7 +14,6 @@
 #include "mpm/math/input_file.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/source.hpp"
-#include "mpm/simulation/method_rules.hpp"
 
 namespace mpm {
 namespace {
@@ -98,7 +97,7 @@ std::optional<pace::Ground> ground_of(const SimulationDefinition& definition) {
       friction = own->friction_angle;
     } else if (std::holds_alternative<J2PlasticityDefinition>(material.law)) {
       friction = 0.0;
-    } else if (!is_soil(make_law(material))) {
+    } else {
       continue;
     }
     if (friction > 0.0) return pace::Ground::sand;

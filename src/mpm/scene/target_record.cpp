@@ -136,6 +136,7 @@ Scene with_chosen(const Scene& scene, const std::vector<std::string>& lines, dou
   target["before"] = before;
   target["asked"] = asked;
   target["expected"]["real_time"] = fmt::format("{:.4g}", expected_pace);
+  target["expected"].remove("force_error");
   if (expected_error > 0.0) target["expected"]["force_error"] = fmt::format("{:.4g}", expected_error);
   return parsed_with(scene, YAML::Dump(root), lines);
 }

@@ -140,10 +140,13 @@ class Chooser {
                       scene_.path, in_a_cell(own_.along), fmt::join(numbers, " and "),
                       target_.keep.empty() ? "" : ", or take keys out of target.keep"));
     }
-    throw mpm::SceneError(fmt::format(
-        "{}: target: there are no figures for {} cells across {:.3g} m of tool, with a cell that fits the grid and the "
-        "bodies; leave target out, use a smaller grid.cell, or write target.length",
-        scene_.path, std::round(tools_.all.front().length / own_.cell.x()), tools_.all.front().length));
+    double least = tools_.all.front().length;
+    for (const mpm::pace::ToolInGround& tool : tools_.all) least = std::min(least, tool.length);
+    throw mpm::SceneError(
+        fmt::format("{}: target: there are no figures for {:.2g} cells across {:.3g} m of tool, with a cell that fits "
+                    "the grid and the "
+                    "bodies; leave target out, use a smaller grid.cell, or write target.length",
+                    scene_.path, least / own_.cell.maxCoeff(), least));
   }
 
   int in_a_cell(int along) const {
@@ -300,8 +303,9 @@ class Chooser {
 
   std::string out_of_reach(const Candidate& chosen) const {
     const std::string begin =
-        fmt::format("target {} is not in reach on this machine: {:.2g} of real time with an error of {}",
-                    mpm::pace::target_text(target_), chosen.pace, percent_text(chosen.error.total()));
+        fmt::format("target {} is not in reach on this machine: {:.2g} of real time with an error {}",
+                    mpm::pace::target_text(target_), chosen.pace,
+                    tools_.unknown.empty() ? "of " + percent_text(chosen.error.total()) : "that is not known");
     if (!target_.real_time) {
       return begin + fmt::format(
                          " is the least that there are figures for; a smaller grid.cell that fits grid and bodies, or "

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "mpm/scene/target_choice.hpp"
 
 namespace mpm_ros {
@@ -34,7 +36,10 @@ JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace:
   const std::optional<mpm::pace::Ground> ground = mpm::ground_of(scene.definition);
   JudgedTools tools;
   if (rehearsal) {
+    const auto works = [](const mpm::pace::ToolAtWork& tool) { return tool.use.has_value(); };
+    const bool any_works = std::any_of(rehearsal->tools.begin(), rehearsal->tools.end(), works);
     for (const mpm::pace::ToolAtWork& tool : rehearsal->tools) {
+      if (any_works && !works(tool)) continue;  // a floor or an anvil, beside what moves
       const auto use = target.use ? target.use : tool.use;
       tools.all.push_back({use, ground, target.length.value_or(tool.length(use))});
       tools.names.push_back(scene.definition.rigid_bodies[tool.body].name);
@@ -45,19 +50,24 @@ JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace:
     tools.all.push_back({target.use, ground, whole});
     tools.names.emplace_back();
   }
+  // How deep a blade that no rehearsal found in the ground will dig is not known.
+  const bool has_length = target.length || !tools.names.front().empty() || target.use == mpm::pace::ToolUse::plate;
   for (ToolInGround& tool : tools.all) {
-    if (tool.use && ground && errors.covers(tool, geometry)) continue;
+    if (has_length && tool.use && ground && errors.covers(tool, geometry)) continue;
     tools.unknown = fmt::format("a {} in {}{}", name_of(tool.use),
-                                ground ? mpm::pace::kGroundNames[static_cast<int>(*ground)] : "what is no soil",
+                                ground ? mpm::pace::kGroundNames[static_cast<int>(*ground)] : "other material",
                                 mpm::dimensions(geometry) == 3 ? ", in space" : "");
     if (target.force_error) {
-      const char* remedy = tool.use ? "leave target out, or write target.real_time"
-                                    : "if commands will move it, write target.tool: blade, plate or wheel";
+      const char* remedy =
+          tool.use && has_length
+              ? "leave target out, or write target.real_time"
+              : "if commands will move it, write target.tool (blade, plate or wheel) and target.length";
       throw mpm::SceneError(
           fmt::format("{}: target.force_error: no error was measured for {}, so none can be promised; {}", scene.path,
                       tools.unknown, remedy));
     }
-    tool = {{}, {}, whole};
+    const bool known_ground = errors.covers({{}, ground, whole}, geometry);
+    tool = {{}, known_ground ? ground : std::nullopt, whole};
   }
   return tools;
 }

@@ -164,6 +164,12 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
 
 ForceRow run_places(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
   std::vector<ForceRow> rows;
+  for (const Overrides* list : {&set, &variant}) {
+    for (const std::string& one : *list) {
+      if (value_of(one, "beside"))
+        throw StudyError("'" + one + "' is one place, and five are asked for; leave one out");
+    }
+  }
   for (const Place& place : five_places(problem)) {
     Overrides there = set;
     there.push_back(fmt::format("beside={},{}", place[0], place[1]));

@@ -32,7 +32,8 @@ Scene ploughed(const std::string& velocity = {}, const std::string& place = {}) 
 /// The part of the particles that are awake, and the part of the steps with the tool in contact, over all of a run.
 Rehearsal outcome(const Scene& scene) {
   Simulation run(build(scene), SimulationOptions{1});
-  Rehearsal sums{1.0, 1.0, 0.0, 0.0, 0.0};
+  Rehearsal sums;
+  sums.awake = 0.0;
   int periods = 0;
   for (; static_cast<double>(run.time()) * kTimeUnit < scene.definition.time.end; ++periods) {
     run.advance();

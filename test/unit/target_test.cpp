@@ -209,6 +209,15 @@ TEST(TargetChoice, OutOfReachIsTheFastestOfBearableError) {
   for (const Candidate& one : all) EXPECT_TRUE(one.error.total() > kMostError || one.pace <= best.pace * 1.02);
 }
 
+TEST(TargetChoice, WhereNoErrorIsKnownNoneKeepsAPaceOutOfReach) {
+  Target target = asks(7.0, {});  // 4 cells, whose error is 10 % and more, make it
+  target.most_error = 0.05;
+  const auto all = candidates(target, {blade(8.0)}, kCells, plane(), table(), costs());
+  EXPECT_FALSE(reaches(target, all[choose(target, all)]));
+  target.most_error = 1e9;
+  EXPECT_TRUE(reaches(target, all[choose(target, all)]));
+}
+
 TEST(TargetChoice, TheFrontHasNoneThatIsBeatenAndTheTableShowsIt) {
   const auto all = candidates(asks(1.0, {}), {blade(8.0)}, kCells, plane(), table(), costs());
   const auto best = front(all);

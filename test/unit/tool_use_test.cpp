@@ -15,7 +15,7 @@ using pace::ToolAtWork;
 using pace::ToolsInGround;
 using pace::ToolUse;
 
-/// What is found of a tool above a bed 0.4 m high, which it does not feel.
+/// The tools that are found, of one above a bed 0.4 m high, which it does not feel.
 std::vector<ToolAtWork> found(const std::string& shape, const std::string& place, const std::string& motion,
                               const std::string& more = {}, int until = 200'000'000) {
   const Scene scene = parse_scene(

@@ -1,4 +1,4 @@
-// What `target` promises of the force on a tool against what a run then meets: eight tools that the table of errors was
+// Errors that `target` promises of the force on a tool against those of a run: eight tools that the table of errors was
 // not measured with, by their law, their angle of friction, their shape, their cells or their place on the grid.
 // Cost: 12 s.
 #include <gtest/gtest.h>

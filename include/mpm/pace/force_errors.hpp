@@ -11,8 +11,8 @@
 //
 // The error of grid and particles is that of the reference, double, USAVG, cfl 0.5, against the answer: of a problem
 // the largest with so many cells or more, and 1 % at least, since less is met by accident; between two numbers of cells
-// a power of them; on grids coarser than a problem was run on that of its coarsest; over the
-// problems of a use and a ground the largest, since a robot's tool may be like any of them. Precision and update add
+// a power of them; on grids coarser than a problem was run on that of its coarsest; over the problems
+// of a use and a ground the largest, since a robot's tool may be like any of them. Precision and update add
 // the change of the force that they alone make in a run of the table, root of the mean square too; so does the step,
 // from the smallest cfl of the table on, in proportion between two of them. The whole is the root of the sum of the
 // squares, as of errors that do not depend on each other.
@@ -43,7 +43,7 @@ enum class Ground { sand, clay };
 /// In the order of Ground.
 inline constexpr std::array<const char*, 2> kGroundNames = {"sand", "clay"};
 
-/// What the error of a tool's force is asked for; what is not known is taken from all there is.
+/// A tool whose error of the force is asked for; what is not known of it is taken from all there is.
 struct ToolInGround {
   std::optional<ToolUse> use;
   std::optional<Ground> ground;
@@ -81,7 +81,7 @@ class ForceErrors {
   /// measured, or so many particles in a cell that none were. Finer than the finest counts as that.
   /// A scene with less than three axes is judged by problems with two.
   std::optional<ForceError> of(const Discretisation& one, const ToolInGround& tool, GeometryKind geometry) const;
-  /// Whether a run with such a tool in such a ground, as far as they are known, was measured on any grid.
+  /// True if a run with such a tool in such a ground, as far as they are known, was measured on any grid.
   bool covers(const ToolInGround& tool, GeometryKind geometry) const;
   /// Cost of a particle's step over that in double precision with USAVG: 1 where there is no figure.
   double cost_factor(Precision precision, UpdateScheme update) const;

@@ -27,15 +27,16 @@ struct Rehearsal {
   double contact = 1.0;           ///< cost of an awake particle's step while a tool touches over that while none does
   double steps = 1.0;             ///< steps a second in the whole run over those at its start
   double particle_step = 0.0;     ///< of an awake particle [s]
-  std::vector<ToolAtWork> tools;  ///< in the ground in what was reached, or, by functions, later
+  std::vector<ToolAtWork> tools;  ///< in the ground, now or later, if they were asked for
 };
 
 /// Runs `coarse` for a budget of wall time [s] at most, settling included. `coarser`: how many times its cells are as
-/// wide as those of the run. Returns nothing where it could not be run or not one sync period was made.
+/// wide as those of the run. `with_tools`: tools are looked at, which takes a part of the budget. Returns nothing where
+/// it could not be run or not one sync period was made.
 /// @throws StoppedError when `stop` was true, std::bad_alloc
 std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, int threads, std::optional<Isa> isa,
                                   double budget, const std::function<bool()>& stop = {},
-                                  const WallClock& clock = steady_seconds);
+                                  const WallClock& clock = steady_seconds, bool with_tools = false);
 
 /// The mean cost of the run's steps, and their number a second, from those that were timed at its start.
 StepCost of_whole_run(const StepCost& start, const Rehearsal& rehearsal, std::uint64_t particles);

@@ -1,9 +1,9 @@
 // What a run is to reach, a pace or an error of the force on its tool, and which discretisation reaches it.
 //
 // For a pace: of all candidates that are expected to reach it with a tenth to spare, and whose error is at most
-// kMostError, the one with the least error. For an error: of all that keep it, the fastest. Where no candidate reaches
-// the target, the one that comes nearest is taken, within kMostError where there is one. Errors that differ
-// by less than kSameError of the force count as the same, and so do paces within kSamePace; then the faster one, or the
+// Target::most_error, the one with the least error. For an error: of all that keep it, the fastest. Where no candidate
+// reaches the target, the one that comes nearest is taken, within that error where there is one. Errors that differ by
+// less than kSameError of the force count as the same, and so do paces within kSamePace; then the faster one, or the
 // more exact one, is taken. The pace is arithmetic: a step costs as its particles do, for each precision and update at
 // the cost that was timed on the scene; steps to a sync period are whole. Weak: a coarse grid's step costs more than
 // its particles do, so what is chosen should be timed itself.
@@ -20,6 +20,8 @@
 
 namespace mpm::pace {
 
+inline constexpr double kMostError = 0.4;  ///< of the force, at most; with more the figures say little
+
 /// Exactly one of the first two.
 struct Target {
   std::optional<double> real_time;    ///< simulated over wall time
@@ -27,9 +29,10 @@ struct Target {
   std::vector<std::string> keep;      ///< of discretisation_keys(): stay as the scene has them
   /// Axis across whose middle plane the scene is its own mirror image: the half above it is modelled.
   std::optional<int> symmetric;
-  std::optional<ToolUse> use;    ///< of all tools, as the scene says it
-  std::optional<double> length;  ///< that cells count across, as the scene says it [m]
-  double extent = 0.0;           ///< of the smallest tool, where no length is known otherwise [m]
+  std::optional<ToolUse> use;      ///< of all tools, as the scene says it
+  std::optional<double> length;    ///< that cells count across, as the scene says it [m]
+  double most_error = kMostError;  ///< that a choice for a pace may have; infinite where no error is known
+  double extent = 0.0;             ///< of the smallest tool, where no length is known otherwise [m]
   /// Of a scene for which the choice was made before: what was set in it, "key=value"; it is not made anew.
   std::optional<std::vector<std::string>> chosen;
   double expected_pace = 0.0, expected_error = 0.0;  ///< beside `chosen`
@@ -48,7 +51,6 @@ struct Candidate {
 };
 
 inline constexpr double kSpare = 1.1;        ///< the pace that is asked of a candidate over the pace wanted
-inline constexpr double kMostError = 0.4;    ///< of the force, at most; with more the figures say little
 inline constexpr double kSameError = 0.001;  ///< of the force
 inline constexpr double kSamePace = 0.02;    ///< relative
 

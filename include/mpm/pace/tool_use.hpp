@@ -26,8 +26,8 @@ struct ToolAtWork {
   std::optional<ToolUse> use;  ///< nothing: it did not move, as one that commands move
   double depth = 0.0;          ///< to which it reaches below the ground as it was at the start, at most [m]
   double width = 0.0;          ///< the smaller of its extents across gravity [m]
-  /// What cells count across in such a use [m]: the width of a plate that has ends, the depth of a blade and a wheel,
-  /// and the smaller of the two where the use is not known.
+  /// Length that cells count across in such a use [m]: the width of a plate that has ends, the depth of a blade and a
+  /// wheel, and the smaller of the two where the use is not known.
   double length(std::optional<ToolUse> in_use) const;
 };
 
@@ -38,7 +38,7 @@ class ToolsInGround {
   explicit ToolsInGround(const Simulation& simulation);
   /// Call at sync points, some dozens of times in a run: a look takes as long as tens of thousands of distances.
   void look(const Simulation& simulation);
-  /// What is still to come of tools whose motion is prescribed by functions, from where they are until `end` [s].
+  /// Follows tools whose motion is prescribed from where they are until `end` [s].
   void look_ahead(const Simulation& simulation, double end);
   /// Those that have been in the ground. A depth below half a spacing of particles is not seen.
   std::vector<ToolAtWork> found() const;

@@ -19,9 +19,9 @@ namespace mpm {
 /// times as wide.
 std::vector<std::pair<Vec3, int>> fitting_cells(const Scene& scene);
 
-/// What the scene's soil is for the table of errors: clay if its materials that yield (drucker_prager, mohr_coulomb,
-/// j2_plasticity) do so by cohesion alone, sand if one of them has friction; nothing where there are none, since tools
-/// were measured in no others.
+/// The kind of the scene's soil for the table of errors: clay if its materials that yield (drucker_prager,
+/// mohr_coulomb, j2_plasticity) do so by cohesion alone, sand if one of them has friction; nothing where there are
+/// none, since tools were measured in no others.
 std::optional<pace::Ground> ground_of(const SimulationDefinition& definition);
 
 /// Loads the table that the environment variable MPM_ROS_FORCE_ERRORS names, else config/force_errors.csv of the

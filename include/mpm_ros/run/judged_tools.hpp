@@ -21,7 +21,7 @@ struct JudgedTools {
   std::string text() const;
 };
 
-/// What the rehearsal found of tools, those that move if any does, or else what the scene says. One that was not
+/// Takes the tools that the rehearsal found, those that move if any does, or else what the scene says. One that was not
 /// measured, or whose depth is not known, is judged by all that were measured in its ground, with cells counted across
 /// the smallest tool's extent, and no error may be promised.
 /// @param scene with a target

@@ -16,6 +16,7 @@ namespace mpm_ros {
 /// coarser.
 /// @throws mpm::StoppedError
 std::optional<mpm::pace::Rehearsal> rehearse_scene(const mpm::Scene& scene, const mpm::pace::Forecast& timed,
-                                                   mpm::Isa isa, double budget, const std::function<bool()>& stop);
+                                                   mpm::Isa isa, double budget, const std::function<bool()>& stop,
+                                                   bool with_tools = false);
 
 }  // namespace mpm_ros

@@ -55,7 +55,8 @@ Rehearsal of_periods(const std::vector<Period>& periods, double all) {
 }  // namespace
 
 std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, int threads, std::optional<Isa> isa,
-                                  double budget, const std::function<bool()>& stop, const WallClock& clock) {
+                                  double budget, const std::function<bool()>& stop, const WallClock& clock,
+                                  bool with_tools) {
   const double end = coarse.time.end / kTimeUnit, begun = clock();
   const auto stopped = [&] { return stop && stop(); };
   const auto over = [&] { return clock() - begun >= budget || stopped(); };
@@ -71,7 +72,7 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
   try {
     Simulation& simulation = run.emplace(std::move(coarse), options);
     particles = static_cast<double>(simulation.particles());
-    tools.emplace(simulation);
+    if (with_tools) tools.emplace(simulation);
     double last = clock(), look = end / kLooks;
     std::uint64_t steps = 0;
     while (static_cast<double>(simulation.time()) < end) {
@@ -81,7 +82,7 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
       periods.push_back({static_cast<double>(made - steps), part_awake(simulation), now - last, touches(simulation)});
       last = now;
       steps = made;
-      if (static_cast<double>(simulation.time()) >= look) {
+      if (tools && static_cast<double>(simulation.time()) >= look) {
         tools->look(simulation);
         look += end / kLooks;
         last = clock();  // it is no part of a period
@@ -100,8 +101,10 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
   found.reached = std::min(1.0, static_cast<double>(periods.size()) / all);
   found.wall = clock() - begun;
   found.particle_step /= particles;
-  tools->look_ahead(*run, end * kTimeUnit);
-  found.tools = tools->found();
+  if (tools) {
+    tools->look_ahead(*run, end * kTimeUnit);
+    found.tools = tools->found();
+  }
   return found;
 }
 

@@ -35,7 +35,7 @@ std::vector<T> values(bool keeps, T own, const std::vector<T>& others) {
   return all;
 }
 
-/// Of several tools; nothing where one has no figures.
+/// The largest of several tools; nothing where one has no figures.
 std::optional<ForceError> largest_error(const ForceErrors& errors, const Discretisation& one,
                                         const std::vector<ToolInGround>& tools, GeometryKind geometry) {
   std::optional<ForceError> largest;
@@ -135,7 +135,8 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<ToolIn
 }
 
 bool reaches(const Target& target, const Candidate& candidate) {
-  if (target.real_time) return candidate.pace >= kSpare * *target.real_time && candidate.error.total() <= kMostError;
+  if (target.real_time)
+    return candidate.pace >= kSpare * *target.real_time && candidate.error.total() <= target.most_error;
   return candidate.error.total() <= *target.force_error;
 }
 
@@ -144,7 +145,7 @@ std::size_t choose(const Target& target, const std::vector<Candidate>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     every.push_back(i);
     if (reaches(target, all[i])) reaching.push_back(i);
-    if (all[i].error.total() <= kMostError) exact_enough.push_back(i);
+    if (all[i].error.total() <= target.most_error) exact_enough.push_back(i);
   }
   if (!target.real_time) return reaching.empty() ? most_exact(all, every) : fastest(all, reaching);
   if (!reaching.empty()) return most_exact(all, reaching);

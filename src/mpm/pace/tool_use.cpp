@@ -76,17 +76,18 @@ std::optional<double> ToolsInGround::ground_at(const Vec3& point) const {
 
 double ToolsInGround::depth_of(const Surface& surface, const Pose& pose) const {
   const Box bounds = world_bounds(pose, surface.bounds());
+  const double bottom = sense_ > 0.0 ? bounds.min[up_] : -bounds.max[up_];
+  const double top = sense_ > 0.0 ? bounds.max[up_] : -bounds.min[up_];
+  if (!std::isfinite(top - bottom)) return 0.0;
   Vec3 from = Vec3::Zero(), step = Vec3::Zero();
-  for (const int axis : axes_) {
-    const double low = std::max(bounds.min[axis], low_[axis]);
-    const double high = std::min(bounds.max[axis], low_[axis] + columns_[axis] * cell_[axis]);
-    from[axis] = axis == up_ ? bounds.min[axis] : low;
-    step[axis] = ((axis == up_ ? bounds.max[axis] : high) - from[axis]) / kPlaces;
-    if (!std::isfinite(step[axis]) || !(step[axis] > 0.0)) return 0.0;
+  std::array<int, 3> count{1, 1, 1}, n{};
+  for (const int axis : level_) {
+    from[axis] = std::max(bounds.min[axis], low_[axis]);
+    step[axis] = (std::min(bounds.max[axis], low_[axis] + columns_[axis] * cell_[axis]) - from[axis]) / kPlaces;
+    if (!(step[axis] > 0.0)) return 0.0;
+    count[axis] = kPlaces;
   }
   double deepest = 0.0;
-  std::array<int, 3> count{1, 1, 1}, n{};
-  for (const int axis : level_) count[axis] = kPlaces;
   for (n[0] = 0; n[0] < count[0]; ++n[0]) {
     for (n[1] = 0; n[1] < count[1]; ++n[1]) {
       for (n[2] = 0; n[2] < count[2]; ++n[2]) {
@@ -99,8 +100,6 @@ double ToolsInGround::depth_of(const Surface& surface, const Pose& pose) const {
           return surface.at(pose.to_body(point)).distance < 0.0;
         };
         // From below: the first place inside, and between it and the one before where the surface lies.
-        const double bottom = sense_ > 0.0 ? bounds.min[up_] : -bounds.max[up_];
-        const double top = sense_ > 0.0 ? bounds.max[up_] : -bounds.min[up_];
         const double rise = (std::min(top, *ground) - bottom) / kPlaces;
         for (int k = 0; k <= kPlaces && rise > 0.0; ++k) {
           if (!inside(bottom + k * rise)) continue;
@@ -144,25 +143,20 @@ void ToolsInGround::look(const Simulation& simulation) {
 }
 
 void ToolsInGround::look_ahead(const Simulation& simulation, double end) {
-  const double from = static_cast<double>(simulation.time()) * kTimeUnit, between = (end - from) / kLooksAhead;
-  for (std::size_t b = 0; between > 0.0 && b < ways_.size(); ++b) {
+  const double from = static_cast<double>(simulation.time()) * kTimeUnit,
+               step = (end - from) / (kLooksAhead * kStepsOfLook);
+  for (std::size_t b = 0; step > 0.0 && b < ways_.size(); ++b) {
     const RigidBody& body = simulation.rigid_body(static_cast<int>(b));
-    const RigidBodyDefinition& definition = body.definition();
-    if (definition.free || body.drive() != Drive::functions) continue;
-    Pose pose = body.pose();
+    if (body.free_motion() != nullptr) continue;
+    RigidBody ahead = body;
     for (int i = 0; i < kLooksAhead; ++i) {
       double turned = 0.0;
       for (int k = 0; k < kStepsOfLook; ++k) {
-        const double t = from + between * (i + (k + 0.5) / kStepsOfLook);
-        Twist twist;
-        for (int axis = 0; axis < 3; ++axis) {
-          twist.linear[axis] = definition.velocity[axis](t);
-          twist.angular[axis] = definition.rotation_rate[axis](t);
-        }
-        pose = integrate(pose, twist, between / kStepsOfLook);
-        turned += twist.angular.norm() * between / kStepsOfLook;
+        ahead.begin_step(from + step * (i * kStepsOfLook + k), step);
+        ahead.end_step(step);
+        turned += ahead.twist().angular.norm() * step;
       }
-      look_at(ways_[b], body.surface(), pose, turned);
+      look_at(ways_[b], ahead.surface(), ahead.pose(), turned);
     }
   }
 }

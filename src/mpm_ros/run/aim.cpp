@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <new>
 #include <optional>
@@ -99,6 +100,7 @@ class Chooser {
   Aim aim() {
     calibrate();
     tools_ = judged_tools(scene_, rehearsal_, errors_);
+    if (!tools_.unknown.empty()) target_.most_error = std::numeric_limits<double>::infinity();
     candidates_ = mpm::pace::candidates(target_, tools_.all, fitting_, scene_.definition, errors_, costs_);
     std::size_t chosen = 0;
     for (int tries = 0;; ++tries) {
@@ -144,8 +146,7 @@ class Chooser {
     for (const mpm::pace::ToolInGround& tool : tools_.all) least = std::min(least, tool.length);
     throw mpm::SceneError(
         fmt::format("{}: target: there are no figures for {:.2g} cells across {:.3g} m of tool, with a cell that fits "
-                    "the grid and the "
-                    "bodies; leave target out, use a smaller grid.cell, or write target.length",
+                    "the grid and the bodies; leave target out, use a smaller grid.cell, or write target.length",
                     scene_.path, least / own_.cell.maxCoeff(), least));
   }
 
@@ -199,7 +200,7 @@ class Chooser {
     costs_.sync = 1e-9 * static_cast<double>(scene.definition.time.sync);
     costs_.step = scene.definition.time.step;
     costs_.wave_time = mpm::wave_step(scene).dt / scene.definition.time.cfl;
-    rehearsal_ = rehearse_scene(scene, *usual, isa_, kLong, stop_);
+    rehearsal_ = rehearse_scene(scene, *usual, isa_, kLong, stop_, true);
     const double own = seconds_of(*usual);
     const Discretisation base = costs_.base;
     const mpm::pace::ForceErrors& errors = errors_;
@@ -327,13 +328,13 @@ class Chooser {
              "bodies, or use more threads";
     }
     return begin + fmt::format("; {:.2g} would take an error of {}, more than the {} that a target accepts; for it, {}",
-                               price->pace, percent_text(price->error.total()), percent_text(mpm::pace::kMostError),
+                               price->pace, percent_text(price->error.total()), percent_text(target_.most_error),
                                repeat_text(lines_of(price->what)));
   }
 
   const mpm::Scene& scene_;
   const std::vector<std::string> before_;
-  const Target& target_;
+  Target target_;
   const mpm::GeometryKind geometry_;
   const Discretisation own_;
   const mpm::pace::ForceErrors errors_;

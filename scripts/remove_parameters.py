@@ -9,9 +9,15 @@ node still publishes /clock. What an earlier value was is not known: roslaunch h
 """
 import signal
 import sys
+import threading
 import time
 
-from mpm_ros.master import UNANSWERED, master_at, node_answers
+# Before anything that takes its time: a launch may be interrupted at once, and what it set is to go all the same.
+ended = threading.Event()
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, lambda *_: ended.set())
+
+from mpm_ros.master import UNANSWERED, master_at, node_answers  # noqa: E402
 
 CLOCK_PATIENCE = 8.0  # [s] for nodes of this launch to end; roslaunch loses patience after 15
 
@@ -35,9 +41,7 @@ def remove(master, name):
 
 def main():
     names = [word for word in sys.argv[1:] if ":=" not in word]
-    numbers = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
-    signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
-    signal.sigwait(numbers)
+    ended.wait()
     master = master_at("/remove_parameters")
     try:
         for name in names:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What a node or a launch file writes to the parameter server does not hold for a later run, and none of it holds in
 silence. 7 s."""
+import re
 import signal
 import unittest
 
@@ -19,6 +20,16 @@ def step_service(master):
 
 def controller_publishes(master):
     return any("/mpm/force_controller" in nodes for _, nodes in master.getSystemState()[0])
+
+
+def remover_waits(output):
+    """Whether the node remove_parameters of a launch, by what roslaunch printed, catches the signals that end it."""
+    started = re.search(r"process\[remove_parameters-1\]: started with pid \[(\d+)\]", output)
+    if not started:
+        return False
+    with open(f"/proc/{started.group(1)}/status", encoding="utf-8") as status:
+        caught = int(re.search(r"SigCgt:\s*(\w+)", status.read()).group(1), 16)
+    return bool(caught >> (signal.SIGTERM - 1) & 1)
 
 
 class Parameters(unittest.TestCase):
@@ -72,6 +83,7 @@ class Launches(unittest.TestCase):
             with self.launch("force_control.launch", "duration:=1000", changes) as launch:
                 # The last that roslaunch starts: interrupted while it starts something, it ends with 1.
                 self.assertTrue(eventually(lambda: controller_publishes(master) and step_service(master)), launch.output())
+                self.assertTrue(eventually(lambda: remover_waits(launch.output())), launch.output())
                 self.assertTrue(master.getParam("/use_sim_time"))
                 self.assertFalse(master.hasParam("/mpm/simulator/record_required"))
                 self.assertEqual(launch.end(), 0)

@@ -3,6 +3,7 @@
 
 #include "mpm/kernel/isa.hpp"
 #include "mpm/kernel/kernels.hpp"
+#include "mpm/kernel/soil_cells.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/shape/kind.hpp"
 
@@ -12,6 +13,10 @@ namespace mpm {
 /// passes (has_shape).
 template <class T>
 mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, Isa isa);
+
+/// The sweeps of the implicit step. `isa` must be available.
+template <class T>
+const mpm_kernel::SweepTable<T>& sweep_table(Isa isa);
 
 /// Whether there are kernels of this shape function in this geometry: qCPDI has two axes, and B-splines are not made
 /// for an axis of symmetry.

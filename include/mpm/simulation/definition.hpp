@@ -48,6 +48,7 @@ struct TimeDefinition {
 struct MethodDefinition {
   ShapeKind shape = ShapeKind::ugimp;
   UpdateScheme update = UpdateScheme::usavg;
+  std::optional<int> sweeps;  ///< of each implicit step; without it as many as its contacts need
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
   /// True gives what flows one stress in a cell (mechanics/stress_average.hpp); see averages_stress().

@@ -26,6 +26,8 @@ class Mechanics : public Module {
   virtual void strain_and_force(StepContext&, double dt) = 0;
   /// Spreads the internal force of the present stress.
   virtual void internal_force(StepContext&) = 0;
+  /// No force on any node, for a step whose internal forces are found with the velocities of its end.
+  virtual void clear_forces(StepContext&) = 0;
   /// velocity = v^{n+1}, force = acceleration, from momentum, force and gravity.
   virtual void update_momentum(StepContext&) = 0;
   /// XPIC, also mixed with FLIP, and FMPM: number of increments that make up the velocity which particles adopt, after

@@ -37,6 +37,7 @@ enum class Rank {
   absorbing,        ///< needs the force on its nodes, which a wall or a condition there would hide
   wall,             ///< holds its nodes before contact
   condition,        ///< overrides walls, so it acts after them
+  implicit,         ///< finds the velocities for which stresses and all contacts fulfil their laws
   pair,             ///< contact of deformable bodies; before rigid bodies, whose velocity is the last word
   rigid_body,       ///< contact with rigid bodies
   frictional_wall,  ///< contact with the domain's faces, which are rigid too and do not move

@@ -2,6 +2,7 @@
 //
 // USF costs least and conserves energy less well; USL takes strain from the momentum that the particles end the step
 // with (the modified form, re-extrapolated) and loses energy; USAVG does both and has the smallest energy drift.
+// An implicit step has no strain of its own: a stage (implicit/implicit_step.hpp) finds velocities and stresses together.
 // Contact and walls act on velocities beside the gathered momentum, which stays as it was, so nothing has to be undone
 // before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
 #pragma once
@@ -13,13 +14,19 @@
 
 namespace mpm {
 
-enum class UpdateScheme { usf, usl, usavg };
+enum class UpdateScheme { usf, usl, usavg, implicit };
+
+/// Whether particles keep their places while they move, since strain is updated from there afterwards.
+constexpr bool strains_after_motion(UpdateScheme update) {
+  return update == UpdateScheme::usl || update == UpdateScheme::usavg;
+}
 
 /// In the order of UpdateScheme.
-inline constexpr std::array<const char*, 3> kUpdateNames = {"usf", "usl", "usavg"};
+inline constexpr std::array<const char*, 4> kUpdateNames = {"usf", "usl", "usavg", "implicit"};
 
 void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context);
 void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context);
 void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& context);
+void step_implicit(Mechanics& mechanics, const Modules& modules, StepContext& context);
 
 }  // namespace mpm

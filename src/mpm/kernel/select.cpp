@@ -23,6 +23,7 @@
   const mpm_kernel::LawFamily& plane_strain_laws();                  \
   const mpm_kernel::LawFamily& axisymmetric_laws();                  \
   const mpm_kernel::LawFamily& solid_laws();                         \
+  const mpm_kernel::SweepFamily& soil_sweeps();                      \
   }
 MPM_DECLARE_KERNELS(mpm_plain)
 MPM_DECLARE_KERNELS(mpm_avx2)
@@ -70,6 +71,8 @@ constexpr const mpm_kernel::LawFamily& (*kLaws[][3])() = {MPM_KERNELS(line_laws)
                                                           MPM_KERNELS(plane_stress_laws),
                                                           MPM_KERNELS(axisymmetric_laws), MPM_KERNELS(solid_laws)};
 
+constexpr const mpm_kernel::SweepFamily& (*kSweeps[3])() = MPM_KERNELS(soil_sweeps);
+
 const mpm_kernel::KernelTable<double>& of(const mpm_kernel::PassFamily& family, int axes, double) {
   return family.in_double[axes - 1];
 }
@@ -96,6 +99,15 @@ mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, 
   if (tables.shape[set] != nullptr) table.shape = &of(tables.shape[set](), axes, T());
   table.laws = of(kLaws[static_cast<int>(geometry)][set](), T());
   return table;
+}
+
+template <>
+const mpm_kernel::SweepTable<double>& sweep_table<double>(Isa isa) {
+  return kSweeps[static_cast<int>(isa)]().in_double;
+}
+template <>
+const mpm_kernel::SweepTable<float>& sweep_table<float>(Isa isa) {
+  return kSweeps[static_cast<int>(isa)]().in_single;
 }
 
 template mpm_kernel::KernelTable<double> kernel_table<double>(ShapeKind, GeometryKind, Isa);

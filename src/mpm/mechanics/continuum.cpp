@@ -64,6 +64,10 @@ class Continuum final : public Mechanics {
     });
   }
 
+  void clear_forces(StepContext&) override {
+    passes_.each_field([&](Field& field) { passes_.clear(field.grid, field.grid.force); });
+  }
+
   void update_momentum(StepContext& context) override {
     double gravity[3] = {};
     for (int k = 0; k < layout_.dim(); ++k) gravity[k] = settings_.gravity[layout_.axis(k)];

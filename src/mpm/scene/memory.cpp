@@ -32,7 +32,7 @@ double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geom
   const int dim = dimensions(geometry);
   const int carried = with_geometry(geometry, [](auto kind) { return kind.kMatrix + kind.kSymmetric; });
   const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
-  const double positions = 8.0 * dim * (method.update == UpdateScheme::usf ? 1 : 2);
+  const double positions = 8.0 * dim * (strains_after_motion(method.update) ? 2 : 1);
   // As in mechanics/continuum.hpp: the domain at the start of a step, and APIC's matrix.
   int kept = follows_deformation(method.shape) ? (method.shape == ShapeKind::ugimp_stretch ? dim : dim * dim) : 0;
   if (method.transfer.kind == TransferKind::apic) kept += dim * dim;

@@ -28,6 +28,13 @@ const Transfer kTransferOfSoil = [] {
   return transfer;
 }();
 
+// That of implicit steps (doc/implicit.md): APIC lets columns run too far, PIC stops them too early.
+const Transfer kTransferOfImplicit = [] {
+  Transfer transfer;
+  transfer.flip = 0.95;
+  return transfer;
+}();
+
 Vec3 read_cell(const Value& value, const Scene& scene) {
   if (value.is_text()) return Vec3::Constant(value.positive(kLength));
   const Vec3 cell = value.vector(kLength);
@@ -239,7 +246,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     return all;
   }
   const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
-                           "gradient_terms", "particles_per_cell", "precision", "axis"});
+                           "gradient_terms", "particles_per_cell", "precision", "axis", "sweeps"});
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
   const auto shape = map.find("shape");
@@ -259,7 +266,13 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   const auto transfer = map.find("transfer");
   const auto damping = map.find("damping");
   const bool part_of_pic = damping && damping->is_map() && damping->node()["pic"];
-  const bool kept = transfer.has_value() || calm(root, part_of_pic, scene);
+  const bool implicit = method.update == UpdateScheme::implicit;
+  if (implicit && !transfer) {
+    method.transfer = kTransferOfImplicit;
+    scene.choices.emplace_back("method.transfer",
+                               fmt::format("{}: what implicit steps were measured with", transfer_text(method.transfer)));
+  }
+  const bool kept = transfer.has_value() || implicit || calm(root, part_of_pic, scene);
   if (transfer) {
     method.transfer = read_transfer(*transfer);
   } else if (!kept && !chosen_later) {
@@ -276,6 +289,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   if (const auto average = map.find("average_stress")) {
     method.average_stress = average->choice({"false", "true"}) == 1;
   }
+  if (const auto sweeps = map.find("sweeps")) method.sweeps = sweeps->integer();
   if (damping) read_damping(*damping, scene);
   if (const auto terms = map.find("gradient_terms")) method.gradient_terms = terms->integer();
   if (const auto precision = map.find("precision")) {

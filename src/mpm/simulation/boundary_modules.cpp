@@ -78,6 +78,7 @@ void add_absorbing(RunParts& parts) {
 }
 
 void add_walls(RunParts& parts) {
+  if (parts.definition.method.update == UpdateScheme::implicit) return;  // implicit_module.cpp
   each_face(parts.layout(), [&](int face, int name) {
     const WallDefinition& wall = parts.definition.walls[name];
     if (!is_wall(wall.kind)) return;

@@ -158,6 +158,7 @@ void add_pairs(RunParts& parts) {
 
 void add_rigid_contact(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
+  if (definition.method.update == UpdateScheme::implicit) return;  // implicit_module.cpp
   const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);
   std::vector<RigidBody*> met_at_points;
   std::vector<ContactLaw> laws_at_points;

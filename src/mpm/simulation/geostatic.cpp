@@ -65,6 +65,12 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   SimulationDefinition part = definition;
   // What is settled comes to rest sooner if each particle has its own strength.
   part.method.average_stress = false;
+  // Waves settle it, which implicit steps do not have.
+  if (part.method.update == UpdateScheme::implicit) {
+    part.method.update = UpdateScheme::usavg;
+    part.method.sweeps.reset();
+    part.time.step.reset();
+  }
   part.bodies.clear();
   part.metrics.clear();
   part.sleep.reset();

@@ -162,7 +162,8 @@ double stable_cfl(const Transfer& transfer) {
 }
 
 bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks) {
-  return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation && !cracks);
+  const bool sensible = may_lock(geometry) && !method.average_dilatation && !cracks;
+  return method.average_stress.value_or(sensible && method.update != UpdateScheme::implicit);
 }
 
 bool is_soil(const Law& law) {

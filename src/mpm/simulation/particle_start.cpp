@@ -159,7 +159,7 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
     if (is_cut(body)) fill_scalar(body.parts, set.mass, size, set.precision, set.masses);
   }
   if (is_cut(body)) fill_scalar(body.surfaces, 1.0, size, set.precision, set.surface);
-  if (definition.method.update != UpdateScheme::usf) {
+  if (strains_after_motion(definition.method.update)) {
     set.next_x.resize(dim);
     for (PaddedArray<double>& x : set.next_x) size.give(x);
     for (int k = 0; k < dim; ++k) std::copy(set.x[k].begin(), set.x[k].end(), set.next_x[k].begin());

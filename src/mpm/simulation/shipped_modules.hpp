@@ -43,6 +43,7 @@ void add_walls(RunParts& parts);
 void add_conditions(RunParts& parts);
 void add_pairs(RunParts& parts);
 void add_rigid_contact(RunParts& parts);
+void add_implicit(RunParts& parts);
 void add_particle_loads(RunParts& parts);
 void add_tractions(RunParts& parts);
 void add_sleep(RunParts& parts);

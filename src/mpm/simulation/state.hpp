@@ -127,6 +127,8 @@ struct Simulation::State {
   Vec3 momentum() const;
   /// What the material allows now.
   StepLimit survey_material() const;
+  /// The same of an implicit step.
+  StepLimit survey_motion() const;
   /// What material and modules allow in the sync period, when the material has gone from one limit to the other.
   /// @throws DampingError
   StepLimit step_limit(const StepLimit& before, const StepLimit& now) const;

@@ -34,6 +34,9 @@ class SceneStep final : public Module {
   double dt_;
 };
 
+constexpr double kImplicitStep = 0.01;  ///< of a scene that names none [s]
+constexpr double kMostTravel = 0.5;     ///< cells that a particle may move in an implicit step
+
 /// Largest shear of the domains that particles awake have now, at most the limit.
 template <int Dim>
 double largest_shear(const ParticleSet& set, const GridLayout& layout, int threads) {
@@ -73,10 +76,38 @@ double shear_of(const SimulationDefinition& definition, const ParticleSet& set, 
 }  // namespace
 
 void add_step_limit(RunParts& parts) {
-  if (parts.definition.time.step) parts.modules.add(std::make_unique<SceneStep>(*parts.definition.time.step));
+  std::optional<double> step = parts.definition.time.step;
+  if (parts.definition.method.update == UpdateScheme::implicit) step = step.value_or(kImplicitStep);
+  if (step) parts.modules.add(std::make_unique<SceneStep>(*step));
+}
+
+// No wave limits an implicit step; what moves may cross a part of a cell in it.
+StepLimit Simulation::State::survey_motion() const {
+  StepLimit limit;
+  limit.by = mechanics.get();
+  double fastest = 0.0;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const ParticleSet& set = sets[s];
+    const int count = set.awake();
+    for (int k = 0; k < layout().dim(); ++k) {
+      const double per_cell = layout().inverse_cell(k);
+      double most = 0.0;
+      set.v[k].visit([&](const auto& v) {
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most)
+        for (int p = 0; p < count; ++p) most = std::max(most, std::abs(static_cast<double>(v[p])));
+      });
+      if (!(per_cell * most > fastest)) continue;
+      fastest = per_cell * most;
+      limit.part = static_cast<int>(s);
+      limit.speed = most;
+    }
+  }
+  if (fastest > 0.0) limit.dt = kMostTravel / fastest;
+  return limit;
 }
 
 StepLimit Simulation::State::survey_material() const {
+  if (definition.method.update == UpdateScheme::implicit) return survey_motion();
   const int dim = layout().dim();
   const double cell = layout().smallest_cell();
   StepLimit limit;

@@ -65,4 +65,12 @@ void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& conte
   finish_with_strain(mechanics, modules, context, 0.5 * context.dt);
 }
 
+void step_implicit(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  context.strain_at_start = 0.0;
+  gather_momentum(mechanics, modules, context);
+  mechanics.clear_forces(context);
+  advance_grid(mechanics, modules, context);
+  mechanics.move_particles(context);
+}
+
 }  // namespace mpm

@@ -1,0 +1,118 @@
+// The cells of the implicit step: what particles give to them, the unknown stresses that sweeps find, and what particles
+// take from these.
+//
+// A particle's box is cut by the cells' faces into up to eight pieces. Over a piece the hat functions of the cell's nodes are
+// products of straight lines, whose means are their values at its middle: so the sums over pieces of volume and of
+// products of their middles' coordinates (seven numbers) give the mean gradients B of uGIMP exactly, and the stress of a
+// particle in a step is the mean over its pieces of the cells' stresses. Cells with one stress do not lock, and pressures
+// that alternate from cell to cell have no place in them (doc/implicit.md).
+//
+// Of each body a cell has a stress of its own. Deformation, stress and history of particles are what the explicit laws
+// have (material/drucker_prager.hpp): F, the Kirchhoff stress over initial density, plastic strain, opening and plastic
+// work. The opening may be negative here: soil that few sweeps have left too dense, which gives back a fifth of it in a step.
+//
+// Weak: stress is that of cells, without variation inside them, so that it spreads by up to a cell where material moves
+// through the grid. What a sweep leaves undone is an error of volume or strength, of which the particles remember the
+// volume alone. Source: reference text on implicit steps; the moments are those of a trilinear element.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/implicit/soil_grid.hpp"
+#include "mpm/implicit/soil_law.hpp"
+#include "mpm/kernel/soil_cells.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/material/law.hpp"
+
+namespace mpm {
+
+/// A body of soil. The set and its law outlive the cells.
+struct SoilBody {
+  ParticleSet* set;
+  const Law* law;
+  ImplicitSoil soil;
+};
+
+/// T: precision of the sweeps, that of the particles.
+template <class T>
+class SoilCells {
+ public:
+  using Cell = mpm_kernel::SoilCell<T>;
+  using Node = mpm_kernel::SoilNode<T>;
+
+  SoilCells(std::vector<SoilBody> bodies, const SoilGrid& grid, GeometryKind geometry, int threads);
+
+  /// After the blocks in use have changed.
+  void rebuild();
+  /// Finds the cells from the particles, with the stress that they have as the one to begin with. `nodes`: of
+  /// SoilGrid::nodes() and one more, with inverse masses.
+  void gather(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt);
+  /// Gives the particles the strain of the step, and the stresses that were found.
+  void take(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt);
+
+  /// The cells in a block.
+  int begin(int block) const { return begin_[block]; }
+  int count(int block) const { return begin_[block + 1] - begin_[block]; }
+  Cell* cells(int block) { return cells_.data() + begin_[block]; }
+  const mpm_kernel::SoilMask<T>* masks(int block) const { return masks_[block].data(); }
+  std::size_t size() const { return cells_.size(); }
+  const std::vector<mpm_kernel::SoilLaw<T>>& laws() const { return laws_; }
+
+  /// What stresses give to the components of velocity that walls hold [N s], in the order of kWallNames.
+  void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
+  /// The least initial density of the bodies [kg/m^3].
+  double least_density() const { return least_density_; }
+
+ private:
+  /// What the particles of a body give to a cell, weighted with their volumes.
+  struct Sums {
+    double volume;
+    double place[6];  ///< x, y, z, xy, xz, yz, in cells from the lower corner
+    double stress[6];  ///< r
+    double opening;
+    double left, dilates;
+  };
+  /// What a cell gives to particles.
+  struct Motion {
+    double gradient[9];  ///< of velocity, row by row [1/s]
+    double stress[6];    ///< r
+    double opening, shear;  ///< rates of opening and of plastic shear [1/s]
+    double power;           ///< of the stress on the strain, over volume [W/m^3]
+  };
+  /// A component of a node's velocity that a wall holds, in a cell.
+  struct HeldEntry {
+    int cell;
+    std::uint8_t wall, axis;
+    double gradient[3];  ///< of the node's shape function [1/m]
+  };
+  template <class Geometry>
+  void gather_block(int body, int owner);
+  void make_cells(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block);
+  void make_cell(const Sums& sums, int block, int local, const std::vector<Node>& nodes, double dt, Cell& cell);
+  void find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int cell);
+  template <class Geometry, class LawType>
+  void take_block(int body, const LawType& law, int owner, double dt);
+  /// Where a body's sums in a block begin, or -1.
+  int& slot(int body, int block) { return slots_[static_cast<std::size_t>(body) * blocks_ + block]; }
+
+  std::vector<SoilBody> bodies_;
+  const SoilGrid& grid_;
+  GeometryKind geometry_;
+  int threads_;
+  int blocks_ = 0;
+  std::vector<mpm_kernel::SoilLaw<T>> laws_;
+  std::vector<int> slots_;
+  std::vector<Sums> sums_;
+  std::vector<int> cell_of_;  ///< of each of the sums, its cell, or -1
+  std::vector<int> begin_;
+  std::vector<Cell> cells_;
+  std::vector<Motion> motion_;
+  std::vector<std::vector<HeldEntry>> held_;                 ///< of each block
+  std::vector<std::vector<mpm_kernel::SoilMask<T>>> masks_;  ///< of each block
+  double least_density_ = 0.0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,73 @@
+// The grid as sweeps of the implicit step need it: which blocks lie above a block, which thread sweeps which blocks in
+// which order, and which nodes a wall holds along which axes. It changes with the blocks in use, when particles are
+// sorted.
+//
+// A node is numbered block * nodes_per_block + node, as in NodalField; one more stands for no node. Every block in use
+// is swept, so that its number among the blocks that are swept is its number in the grid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/boundary/wall_definition.hpp"
+#include "mpm/grid/nodal_fields.hpp"
+
+namespace mpm {
+
+class SoilGrid {
+ public:
+  static constexpr std::uint8_t kFree = 255;
+
+  /// `walls`: of the domain's faces, in the order of kWallNames.
+  SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, int threads);
+
+  /// Looks at the blocks again if they have changed; whether they have.
+  bool rebuild();
+
+  const Grid& grid() const { return grid_; }
+  int nodes() const { return grid_.blocks.size() * grid_.layout.nodes_per_block(); }
+  /// Number of the node above a block's node by the bits of `corner` along the grid's axes; nodes() if there is none.
+  int corner(int block, const std::array<int, 3>& local, int corner) const;
+  /// Block and number along each axis inside it of the node at `at`, numbers along the grid's axes from the domain's
+  /// first node on; false where no block is in use.
+  bool find(const std::array<int, 3>& at, int& block, std::array<int, 3>& local) const;
+  /// The wall that holds a node along a world axis, in the order of kWallNames, or kFree.
+  std::uint8_t holder(int node, int axis) const { return holders_[3 * static_cast<std::size_t>(node) + axis]; }
+  bool held(int node) const {
+    const std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(node)];
+    return own[0] != kFree || own[1] != kFree || own[2] != kFree;
+  }
+  /// A node on a wall with friction.
+  struct WallNode {
+    int block, node, wall;  ///< node: number among all
+  };
+  /// By block.
+  const std::vector<WallNode>& frictional() const { return frictional_; }
+
+  const BlockShares& shares() const { return shares_; }
+  int local_number(const std::array<int, 3>& local) const {
+    int number = 0;
+    for (int k = 0; k < grid_.layout.dim(); ++k) number = kBlockEdge * number + local[k];
+    return number;
+  }
+
+ private:
+  void find_upper();
+  void find_held();
+
+  const Grid& grid_;
+  std::array<WallDefinition, 6> walls_;
+  int threads_;
+  std::uint64_t generation_ = 0;
+  GridLayout wider_;  ///< one block more at the lower ends, so that blocks beyond walls have neighbours, too
+  BlockTable swept_;  ///< the blocks of the grid as owners
+  BlockShares shares_;
+  std::vector<int> upper_;  ///< [block][corner]: the block above it by these bits, or -1
+  std::vector<std::uint8_t> holders_;
+  std::vector<WallNode> frictional_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint32_t> work_;
+};
+
+}  // namespace mpm

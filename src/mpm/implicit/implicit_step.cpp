@@ -1,0 +1,202 @@
+#include "mpm/implicit/implicit_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/grid/each_share.hpp"
+#include "mpm/kernel/select.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr int kLeastSweeps = 10, kMostSweeps = 60;
+constexpr double kSettled = 2e-3;   ///< change of the force on tools in a sweep, over the force
+constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
+
+template <class T>
+class ImplicitStep final : public Stage, public ContactReporter {
+  using Node = mpm_kernel::SoilNode<T>;
+
+ public:
+  ImplicitStep(ImplicitParts parts, const ImplicitSettings& settings)
+      : table_(sweep_table<T>(settings.isa)),
+        settings_(settings),
+        grid_(*parts.grid),
+        sets_(*parts.sets),
+        soil_grid_(grid_, settings.walls, settings.threads),
+        cells_(std::move(parts.bodies), soil_grid_, settings.geometry, settings.threads),
+        tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
+               {settings.geometry, settings.across, cells_.least_density()}),
+        walls_(settings.walls, soil_grid_) {
+    double volume = settings.across;
+    for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
+    lightest_ = kLightest * cells_.least_density() * volume;
+    light_.name = "implicit/light_nodes";
+  }
+
+  std::string name() const override { return "implicit"; }
+  Ranks ranks(Hook) const override { return {Rank::implicit}; }
+
+  void step_begun(StepContext&) override { tools_.put_out(sets_); }
+
+  void momentum_updated(StepContext& context) override {
+    if (soil_grid_.rebuild()) cells_.rebuild();
+    load();
+    cells_.gather(table_, nodes_, context.dt);
+    begin_work();
+    soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
+    tools_.find(nodes_, context.start, context.dt);
+    walls_.find(nodes_);
+    solve();
+    cells_.take(table_, nodes_, context.dt);
+    store(context.dt);
+  }
+
+  void accounts(std::vector<ImpulseAccount>& list) const override {
+    for (const ContactLedger& ledger : tools_.ledgers()) list.push_back(ledger.account());
+    walls_.accounts(list);
+    list.push_back(light_);
+  }
+  void energies(EnergyReport& report) const override {
+    for (const ContactLedger& ledger : tools_.ledgers()) ledger.energies(report);
+    walls_.energies(report);
+    report.add("implicit_step", NamedEnergy::Kind::dissipated, taken_);
+  }
+  void numbers(std::vector<NamedNumber>& list) const override {
+    list.push_back({"sweeps", "1", static_cast<double>(sweeps_)});
+    list.push_back({"sweep_change", "1", change_});
+  }
+  ContactLedger* ledger_of(const RigidBody& body) override {
+    for (ContactLedger& ledger : tools_.ledgers()) {
+      if (&ledger.body() == &body) return &ledger;
+    }
+    return nullptr;
+  }
+  void serialise(StateArchive& archive) override {
+    tools_.serialise(archive);
+    walls_.serialise(archive);
+    light_.serialise(archive);
+    archive.sum("taken", taken_);
+    archive.value("sweeps", sweeps_);
+    archive.value("change", change_);
+  }
+
+ private:
+  mpm_kernel::SoilBlock<T> block_at(int block) {
+    return {cells_.cells(block), tools_.count(block) > 0 ? tools_.rows(block) : nullptr,
+            walls_.count(block) > 0 ? walls_.rows(block) : nullptr, cells_.masks(block),
+            cells_.count(block), tools_.count(block), walls_.count(block)};
+  }
+  /// Before rows are known.
+  void begin_work() {
+    tools_.clear();
+    walls_.clear();
+  }
+
+  /// Velocities with gravity and loads, and none where walls hold.
+  void load() {
+    const GridLayout& layout = grid_.layout;
+    const int per_block = layout.nodes_per_block(), dim = layout.dim();
+    nodes_.resize(soil_grid_.nodes() + 1);
+    nodes_.back() = Node{};
+    soil_grid_.shares().at_once(settings_.threads, [&](int block) {
+      for (int n = 0; n < per_block; ++n) {
+        Node& node = nodes_[block * per_block + n];
+        node = {};
+        if (!grid_.carries(block, n)) continue;
+        node.inverse_mass = static_cast<T>(1.0 / (grid_.mass.at(block, 0, n) + lightest_));
+        for (int k = 0; k < dim; ++k) {
+          const int axis = layout.axis(k);
+          if (soil_grid_.holder(block * per_block + n, axis) != SoilGrid::kFree) continue;
+          node.v[axis] = static_cast<T>(grid_.velocity.at(block, k, n));
+        }
+      }
+    });
+  }
+
+  void solve() {
+    const int least = settings_.sweeps.value_or(kLeastSweeps), most = settings_.sweeps.value_or(kMostSweeps);
+    double before = tools_.pressed();
+    change_ = 0.0;
+    for (sweeps_ = 0; sweeps_ < most; ++sweeps_) {
+      const bool backwards = sweeps_ % 2 == 1;
+      soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
+        table_.sweep(block_at(block), cells_.laws().data(), nodes_.data(), backwards);
+      });
+      const double now = tools_.pressed();
+      change_ = now > 0.0 ? std::abs(now - before) / now : 0.0;
+      before = now;
+      if (sweeps_ + 1 >= least && change_ < kSettled) {
+        ++sweeps_;
+        break;
+      }
+    }
+  }
+
+  /// Gives the grid the velocities that were found, and books what walls took.
+  void store(double dt) {
+    const GridLayout& layout = grid_.layout;
+    const int per_block = layout.nodes_per_block(), dim = layout.dim();
+    typename WallRows<T>::Impulses held{};
+    cells_.add_to_walls(held);
+    tools_.add_to_walls(held);
+    for (auto& wall : held) {
+      for (double& one : wall) one = -one;
+    }
+    Vec3 light = Vec3::Zero();
+    double taken = 0.0;
+    for (int block = 0; block < grid_.blocks.size(); ++block) {
+      for (int n = 0; n < per_block; ++n) {
+        if (!grid_.carries(block, n)) continue;
+        const int number = block * per_block + n;
+        const double mass = grid_.mass.at(block, 0, n);
+        for (int k = 0; k < dim; ++k) {
+          const int axis = layout.axis(k);
+          double& velocity = grid_.velocity.at(block, k, n);
+          const double start = grid_.momentum.at(block, k, n) / mass;
+          const std::uint8_t wall = soil_grid_.holder(number, axis);
+          const double found = wall == SoilGrid::kFree ? static_cast<double>(nodes_[number].v[axis]) : 0.0;
+          const double by_sweeps = found - velocity;
+          if (wall != SoilGrid::kFree) {
+            held[wall][axis] += mass * by_sweeps;
+          } else {
+            light[axis] -= lightest_ * by_sweeps;
+          }
+          // Of the work of all forces on the velocity of the end, what does not become motion.
+          const double change = found - start;
+          taken += 0.5 * mass * change * change;
+          velocity = found;
+          grid_.force.at(block, k, n) = change / dt;
+        }
+      }
+    }
+    light_.add(light);
+    taken_ += taken;
+    walls_.finish(nodes_, held);
+    tools_.finish(nodes_, dt);
+  }
+
+  const mpm_kernel::SweepTable<T>& table_;
+  ImplicitSettings settings_;
+  Grid& grid_;
+  std::vector<ParticleSet>& sets_;
+  SoilGrid soil_grid_;
+  SoilCells<T> cells_;
+  ToolRows<T> tools_;
+  WallRows<T> walls_;
+  std::vector<Node> nodes_;
+  double lightest_ = 0.0;  ///< [kg]
+  ImpulseAccount light_;   ///< what light nodes were not given
+  double taken_ = 0.0;     ///< by the step itself [J]
+  std::int32_t sweeps_ = 0;
+  double change_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> make_implicit_step(ImplicitParts parts, const ImplicitSettings& settings, Precision precision) {
+  if (precision == Precision::float64) return std::make_unique<ImplicitStep<double>>(std::move(parts), settings);
+  return std::make_unique<ImplicitStep<float>>(std::move(parts), settings);
+}
+
+}  // namespace mpm

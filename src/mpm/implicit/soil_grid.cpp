@@ -1,0 +1,123 @@
+#include "mpm/implicit/soil_grid.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+GridLayout widened(const GridLayout& layout) {
+  Vec3 cell = Vec3::Ones(), min = Vec3::Zero(), max = Vec3::Zero();
+  for (int k = 0; k < layout.dim(); ++k) {
+    const int axis = layout.axis(k);
+    cell[axis] = layout.cell(k);
+    min[axis] = layout.origin(k) - kBlockEdge * layout.cell(k);
+    max[axis] = layout.origin(k) + (layout.last_node(k) + kBlockEdge) * layout.cell(k);
+  }
+  return {layout.dim(), cell, min, max};
+}
+
+}  // namespace
+
+SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, int threads)
+    : grid_(grid), walls_(walls), threads_(threads), wider_(widened(grid.layout)), swept_(wider_) {}
+
+bool SoilGrid::rebuild() {
+  if (generation_ == grid_.blocks.generation()) return false;
+  generation_ = grid_.blocks.generation();
+  const int blocks = grid_.blocks.size();
+  keys_.resize(blocks);
+  for (int b = 0; b < blocks; ++b) {
+    std::array<int, 3> block = grid_.blocks.block(b);
+    for (int k = 0; k < grid_.layout.dim(); ++k) ++block[k];
+    keys_[b] = wider_.key(block);
+  }
+  swept_.rebuild(keys_, threads_);
+  // Those that hold particles have most of the cells; all have one, since a cell may come to any.
+  work_.assign(blocks, 1);
+  for (int owner = 0; owner < grid_.blocks.owners(); ++owner) {
+    work_[grid_.blocks.owner_block(owner)] = static_cast<std::uint32_t>(grid_.layout.nodes_per_block());
+  }
+  shares_.rebuild(swept_, work_, threads_);
+  find_upper();
+  find_held();
+  return true;
+}
+
+void SoilGrid::find_upper() {
+  const int dim = grid_.layout.dim(), corners = 1 << dim, blocks = grid_.blocks.size();
+  upper_.assign(static_cast<std::size_t>(corners) * blocks, -1);
+  for (int b = 0; b < blocks; ++b) {
+    // Every block in use owns itself among those that are swept, so its neighbours are listed there.
+    for (int c = 0; c < corners; ++c) {
+      std::array<int, 3> above = grid_.blocks.block(b);
+      bool numbered = true;  // beyond the last block there is no key
+      for (int k = 0; k < dim; ++k) {
+        above[k] += c >> k & 1;
+        numbered = numbered && kBlockEdge * above[k] <= grid_.layout.last_node(k) + kBlockEdge;
+      }
+      if (numbered) upper_[static_cast<std::size_t>(corners) * b + c] = grid_.blocks.find(grid_.layout.key(above));
+    }
+  }
+}
+
+void SoilGrid::find_held() {
+  const GridLayout& layout = grid_.layout;
+  const int per_block = layout.nodes_per_block();
+  holders_.assign(3 * static_cast<std::size_t>(nodes() + 1), kFree);
+  frictional_.clear();
+  for (int b = 0; b < grid_.blocks.size(); ++b) {
+    for (int face = 0; face < 2 * layout.dim(); ++face) {
+      const int k = face / 2, axis = layout.axis(k), wall = 2 * axis + face % 2;
+      if (!is_wall(walls_[wall].kind)) continue;
+      for (int n = 0; n < per_block; ++n) {
+        const int at = layout.node(grid_.blocks.block(b), n)[k];
+        const int beyond = face % 2 == 1 ? at - layout.last_node(k) : -at;
+        if (beyond < 0 || beyond > grid_.wall_layers) continue;
+        const int node = b * per_block + n;
+        std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(node)];
+        switch (walls_[wall].kind) {
+          case WallKind::frictional:
+            frictional_.push_back({b, node, wall});
+            break;
+          case WallKind::fixed:
+            for (int a = 0; a < 3; ++a) {
+              if (own[a] == kFree) own[a] = static_cast<std::uint8_t>(wall);
+            }
+            break;
+          default:
+            own[axis] = static_cast<std::uint8_t>(wall);
+        }
+      }
+    }
+  }
+}
+
+int SoilGrid::corner(int block, const std::array<int, 3>& local, int corner) const {
+  const int dim = grid_.layout.dim();
+  int above = 0, number = 0;
+  for (int k = 0; k < dim; ++k) {
+    int at = local[k] + (corner >> k & 1);
+    if (at == kBlockEdge) {
+      at = 0;
+      above |= 1 << k;
+    }
+    number = kBlockEdge * number + at;
+  }
+  const int found = upper_[(static_cast<std::size_t>(block) << dim) + above];
+  return found < 0 ? nodes() : found * grid_.layout.nodes_per_block() + number;
+}
+
+bool SoilGrid::find(const std::array<int, 3>& at, int& block, std::array<int, 3>& local) const {
+  std::array<int, 3> of{};
+  for (int k = 0; k < grid_.layout.dim(); ++k) {
+    of[k] = at[k] >> 2;
+    local[k] = at[k] - kBlockEdge * of[k];
+    if (at[k] < -kBlockEdge || at[k] > grid_.layout.last_node(k) + kBlockEdge) return false;
+  }
+  static_assert(kBlockEdge == 4);
+  block = grid_.blocks.find(grid_.layout.key(of));
+  return block >= 0;
+}
+
+}  // namespace mpm

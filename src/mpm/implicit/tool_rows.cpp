@@ -1,0 +1,221 @@
+#include "mpm/implicit/tool_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+constexpr double kApart = 0.5;      ///< cells between points
+constexpr double kClearance = 0.6;  ///< cells from a convex edge
+constexpr double kPresent = 0.1;    ///< of the soil's density, from which on a point is in contact
+
+double at_least_zero(double value) { return std::max(value, 0.0); }
+
+}  // namespace
+
+template <class T>
+ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> laws, const SoilGrid& grid,
+                      const ToolRowSettings& settings)
+    : bodies_(std::move(bodies)), laws_(std::move(laws)), grid_(grid), settings_(settings) {
+  const double cell = grid.grid().layout.smallest_cell();
+  const double apart = std::getenv("APART") ? std::atof(std::getenv("APART")) : kApart, clear = std::getenv("CLEAR") ? std::atof(std::getenv("CLEAR")) : kClearance;
+  for (const RigidBody* body : bodies_) {
+    samples_.push_back(sample_surface(body->surface(), settings.geometry, {apart * cell, clear * cell}));
+    ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
+    kept_.push_back({std::vector<double>(3 * samples_.back().size(), 0.0), std::vector<double>(samples_.back().size(), 0.0)});
+  }
+}
+
+template <class T>
+void ToolRows<T>::put_out(std::vector<ParticleSet>& sets) const {
+  const GridLayout& layout = grid_.grid().layout;
+  const int dim = layout.dim();
+  for (const RigidBody* body : bodies_) {
+    const Box bounds = body->world_bounds();
+    const Pose& pose = body->pose();
+    for (ParticleSet& set : sets) {
+      const int count = set.awake();
+#pragma omp parallel for schedule(static)
+      for (int p = 0; p < count; ++p) {
+        Vec3 at = Vec3::Zero();
+        bool inside = true;
+        for (int k = 0; k < dim; ++k) {
+          const int axis = layout.axis(k);
+          at[axis] = set.x[k][p];
+          inside = inside && at[axis] > bounds.min[axis] && at[axis] < bounds.max[axis];
+        }
+        if (!inside) continue;
+        SurfacePoint point;
+        if (!body->surface().within(pose.orientation.conjugate() * (at - pose.position), 0.0, point)) continue;
+        const Vec3 out = pose.orientation * point.normal;
+        for (int k = 0; k < dim; ++k) {
+          const double moved = set.x[k][p] - point.distance * out[layout.axis(k)], cells = layout.in_cells(k, moved);
+          if (cells > set.lowest[k] && cells < set.highest[k]) set.x[k][p] = moved;
+        }
+      }
+    }
+  }
+}
+
+template <class T>
+bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, Row& row, Place& place) const {
+  const SurfaceSample& point = samples_[body][sample];
+  const RigidBody& of = *bodies_[body];
+  const GridLayout& layout = grid_.grid().layout;
+  const int dim = layout.dim(), corners = 1 << dim;
+  const Vec3 at = of.pose().position + of.pose().orientation * point.place;
+  std::array<int, 3> cell{}, local{};
+  double part[3] = {}, volume = settings_.across;
+  for (int k = 0; k < dim; ++k) {
+    const double in_cells = layout.in_cells(k, at[layout.axis(k)]);
+    cell[k] = static_cast<int>(std::floor(in_cells));
+    part[k] = in_cells - cell[k];
+    volume *= layout.cell(k);
+  }
+  int block = 0;
+  if (!grid_.find(cell, block, local)) return false;
+  double own[3] = {}, mass = 0.0;
+  for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
+    row.node[e] = e < corners ? grid_.corner(block, local, e) : grid_.nodes();
+    double weight = e < corners ? 1.0 : 0.0;
+    for (int k = 0; k < dim && e < corners; ++k) weight *= (e >> k & 1) != 0 ? part[k] : 1.0 - part[k];
+    const double im = static_cast<double>(nodes[row.node[e]].inverse_mass);
+    if (im > 0.0) mass += weight / im;
+    for (int a = 0; a < 3; ++a) {
+      const bool held = grid_.holder(row.node[e], a) != SoilGrid::kFree;
+      row.weight[a][e] = held ? T(0) : static_cast<T>(weight);
+      if (!held) own[a] += weight * weight * im;
+    }
+  }
+  if (!(mass > kPresent * settings_.least_density * volume)) return false;
+  const double most = std::max({own[0], own[1], own[2]});
+  if (!(most > 0.0)) return false;
+  row.own = static_cast<T>(most);
+  row.friction = law.stick ? T(-1) : static_cast<T>(law.coefficient);
+  const Vec3 normal = of.pose().orientation * point.normal, velocity = of.velocity_at(at);
+  for (int a = 0; a < 3; ++a) {
+    row.normal[a] = static_cast<T>(normal[a]);
+    row.velocity[a] = static_cast<T>(velocity[a]);
+  }
+  place = {body, sample, block, at, point.area};
+  const Kept& kept = kept_[body];
+  const double ratio = std::min(1.0, kept.own[sample] / most);
+  Vec3 impulse(kept.impulse[3 * sample], kept.impulse[3 * sample + 1], kept.impulse[3 * sample + 2]);
+  impulse *= ratio * ratio;
+  const double along_normal = impulse.dot(normal);
+  Vec3 along = impulse - along_normal * normal;
+  if (!law.stick && law.coefficient == 0.0) along.setZero();
+  const Vec3 begins = at_least_zero(along_normal) * normal + (along_normal > 0.0 ? along : Vec3(Vec3::Zero()));
+  for (int a = 0; a < 3; ++a) row.impulse[a] = static_cast<T>(begins[a]);
+  return true;
+}
+
+template <class T>
+void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
+  const int blocks = grid_.grid().blocks.size();
+  found_.clear();
+  found_places_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const FrictionLaw law = laws_[b].in_step(start, dt, [&] { return "'" + bodies_[b]->name() + "'"; });
+    for (std::size_t s = 0; s < samples_[b].size(); ++s) {
+      Row row;
+      Place place;
+      if (!make(static_cast<int>(b), static_cast<int>(s), nodes, law, row, place)) continue;
+      found_.push_back(row);
+      found_places_.push_back(place);
+    }
+  }
+  begin_.assign(blocks + 1, 0);
+  for (const Place& place : found_places_) ++begin_[place.block + 1];
+  for (int b = 0; b < blocks; ++b) begin_[b + 1] += begin_[b];
+  next_.assign(begin_.begin(), begin_.end());
+  rows_.resize(found_.size());
+  places_.resize(found_.size());
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    const int at = next_[found_places_[i].block]++;
+    rows_[at] = found_[i];
+    places_[at] = found_places_[i];
+  }
+  held_.clear();
+  const GridLayout& layout = grid_.grid().layout;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    for (int e = 0; e < 1 << layout.dim(); ++e) {
+      double weight = 1.0;
+      for (int k = 0; k < layout.dim(); ++k) {
+        const double in_cells = layout.in_cells(k, places_[i].at[layout.axis(k)]), part = in_cells - std::floor(in_cells);
+        weight *= (e >> k & 1) != 0 ? part : 1.0 - part;
+      }
+      Node& node = nodes[row.node[e]];
+      for (int a = 0; a < 3; ++a) {
+        node.v[a] += node.inverse_mass * row.weight[a][e] * row.impulse[a];
+        const std::uint8_t wall = grid_.holder(row.node[e], a);
+        if (wall != SoilGrid::kFree) held_.push_back({static_cast<int>(i), wall, static_cast<std::uint8_t>(a), weight});
+      }
+    }
+  }
+}
+
+template <class T>
+double ToolRows<T>::pressed() const {
+  double sum = 0.0;
+  for (const Row& row : rows_) sum += std::sqrt(static_cast<double>(row.impulse[0] * row.impulse[0] + row.impulse[1] * row.impulse[1] + row.impulse[2] * row.impulse[2]));
+  return sum;
+}
+
+template <class T>
+void ToolRows<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) const {
+  for (const HeldPart& held : held_) walls[held.wall][held.axis] += held.weight * static_cast<double>(rows_[held.row].impulse[held.axis]);
+}
+
+template <class T>
+void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
+  for (Kept& kept : kept_) {
+    std::fill(kept.impulse.begin(), kept.impulse.end(), 0.0);
+    std::fill(kept.own.begin(), kept.own.end(), 0.0);
+  }
+  std::vector<int>& touched = next_;
+  touched.assign(bodies_.size(), 0);
+  std::vector<double> areas(bodies_.size(), 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    const Place& place = places_[i];
+    const RigidBody& body = *bodies_[place.body];
+    Vec3 impulse, slip, normal, velocity;
+    for (int a = 0; a < 3; ++a) {
+      impulse[a] = static_cast<double>(row.impulse[a]);
+      normal[a] = static_cast<double>(row.normal[a]);
+      velocity[a] = static_cast<double>(row.velocity[a]);
+      slip[a] = -velocity[a];
+      for (int e = 0; e < mpm_kernel::kCellNodes; ++e) slip[a] += static_cast<double>(row.weight[a][e]) * static_cast<double>(nodes[row.node[e]].v[a]);
+    }
+    ContactLedger& ledger = ledgers_[place.body];
+    ledger.give({impulse, normal, place.at - body.pose().position, velocity, slip});
+    // What rows leave undone along the normal.
+    ledger.add_loss({0.0, -impulse.dot(normal) * slip.dot(normal)});
+    Kept& kept = kept_[place.body];
+    for (int a = 0; a < 3; ++a) kept.impulse[3 * place.sample + a] = impulse[a];
+    kept.own[place.sample] = static_cast<double>(row.own);
+    if (impulse.squaredNorm() > 0.0) {
+      ++touched[place.body];
+      areas[place.body] += place.area;
+    }
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) ledgers_[b].end_step(dt, touched[b], areas[b]);
+}
+
+template <class T>
+void ToolRows<T>::serialise(StateArchive& archive) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const StateArchive::Group group(archive, "body_" + std::to_string(b));
+    ledgers_[b].serialise(archive);
+    archive.list("impulses", kept_[b].impulse);
+    archive.list("own", kept_[b].own);
+  }
+}
+
+template class ToolRows<double>;
+template class ToolRows<float>;
+
+}  // namespace mpm

@@ -1,0 +1,39 @@
+// Implicit steps of soil as a module: cells, contact with tools and walls, which a scene with explicit steps has as modules of
+// their own.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "mpm/implicit/implicit_step.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "rigid_contacts.hpp"
+#include "shipped_modules.hpp"
+#include "state.hpp"
+
+namespace mpm {
+
+void add_implicit(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  if (definition.method.update != UpdateScheme::implicit) return;
+  ImplicitParts made;
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    made.bodies.push_back({&parts.sets[s], &parts.laws[s], ImplicitSoil(find_material(definition, definition.bodies[s]))});
+  }
+  made.sets = &parts.sets;
+  const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);
+  for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
+    made.tools.push_back(&parts.bodies[b]);
+    made.laws.push_back(laws[b * parts.sets.size()]);
+  }
+  made.grid = parts.fields.front().get();
+  ImplicitSettings settings;
+  settings.geometry = definition.geometry;
+  settings.across = definition.across();
+  settings.sweeps = definition.method.sweeps;
+  settings.walls = definition.walls;
+  settings.threads = parts.threads;
+  settings.isa = parts.isa;
+  parts.modules.add(make_implicit_step(std::move(made), settings, definition.method.precision));
+}
+
+}  // namespace mpm

@@ -29,6 +29,7 @@ struct ToolRowSettings {
   GeometryKind geometry = GeometryKind::solid;
   double across = 1.0;         ///< thickness of a plane [m]
   double least_density = 0.0;  ///< of the soil, at the start [kg/m^3]
+  int threads = 1;
 };
 
 template <class T>
@@ -54,6 +55,8 @@ class ToolRows {
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
   /// Sum of the impulses' magnitudes [N s].
   double pressed() const;
+  /// Mean pressure on the points in contact, each weighted with its impulse [Pa].
+  double pressure(double dt) const;
   /// Books the impulses, with the nodes as they are now, and keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
   /// What rows give to the components of velocity that walls hold [N s].
@@ -69,6 +72,7 @@ class ToolRows {
     int body, sample, block;
     Vec3 at;  ///< [m]
     double area;
+    double weight[mpm_kernel::kCellNodes];  ///< of its nodes, whether a wall holds them or not
   };
   /// What a wall takes of a row, because it holds a node along an axis.
   struct HeldPart {

@@ -101,9 +101,11 @@ template <class T>
 struct SweepTable {
   /// Gives the nodes the momentum of the cells' stresses.
   void (*push)(const SoilBlock<T>&, SoilNode<T>* nodes);
-  /// Solves cells and rows of a block once. Returns the sum over cells of the square of the change of stress by
+  /// Solves the cells of a block once. Returns the sum over cells of the square of the change of stress by
   /// `push * own`, so that blocks can be compared [J].
   double (*sweep)(const SoilBlock<T>&, const SoilLaw<T>*, SoilNode<T>* nodes, bool backwards);
+  /// Solves the contacts of a block, walls first.
+  void (*meet)(const SoilBlock<T>&, SoilNode<T>* nodes);
   /// What the velocities that were found do to a cell: its rate of strain e, six numbers; the plastic shear |e_T| and the
   /// opening e_N - dilation |e_T| of the part of it that is not elastic [1/s].
   void (*flow)(const SoilCell<T>&, const SoilLaw<T>&, const SoilNode<T>* nodes, T dt, T* e, T* shear, T* opening);

@@ -9,8 +9,8 @@
 namespace mpm {
 namespace {
 
-constexpr int kLeastSweeps = 10, kMostSweeps = 60;
-constexpr double kSettled = 2e-3;   ///< change of the force on tools in a sweep, over the force
+constexpr int kLeastSweeps = 10, kMostSweeps = 100;
+constexpr double kStiffer = 30.0;   ///< modulus that sweeps resolve over the pressure on tools
 constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
@@ -26,7 +26,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         soil_grid_(grid_, settings.walls, settings.threads),
         cells_(std::move(parts.bodies), soil_grid_, settings.geometry, settings.threads),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
-               {settings.geometry, settings.across, cells_.least_density()}),
+               {settings.geometry, settings.across, cells_.least_density(), settings.threads}),
         walls_(settings.walls, soil_grid_) {
     double volume = settings.across;
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
@@ -47,7 +47,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
     tools_.find(nodes_, context.start, context.dt);
     walls_.find(nodes_);
-    solve();
+    solve(context.dt);
     cells_.take(table_, nodes_, context.dt);
     store(context.dt);
   }
@@ -114,22 +114,27 @@ class ImplicitStep final : public Stage, public ContactReporter {
     });
   }
 
-  void solve() {
-    const int least = settings_.sweeps.value_or(kLeastSweeps), most = settings_.sweeps.value_or(kMostSweeps);
-    double before = tools_.pressed();
-    change_ = 0.0;
-    for (sweeps_ = 0; sweeps_ < most; ++sweeps_) {
-      const bool backwards = sweeps_ % 2 == 1;
+  /// As many as resolve the pressure that tools met in the last step.
+  int sweeps_needed(double dt) const {
+    if (settings_.sweeps) return *settings_.sweeps;
+    const double cell = grid_.layout.smallest_cell();
+    const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
+    const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
+    return static_cast<int>(std::clamp<double>(needed, kLeastSweeps, kMostSweeps));
+  }
+
+  void solve(double dt) {
+    sweeps_ = sweeps_needed(dt);
+    for (int sweep = 0; sweep < sweeps_; ++sweep) {
+      const bool backwards = sweep % 2 == 1;
+      const double before = sweep + 1 == sweeps_ ? tools_.pressed() : 0.0;
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
         table_.sweep(block_at(block), cells_.laws().data(), nodes_.data(), backwards);
       });
+      soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.meet(block_at(block), nodes_.data()); });
+      if (sweep + 1 < sweeps_) continue;
       const double now = tools_.pressed();
       change_ = now > 0.0 ? std::abs(now - before) / now : 0.0;
-      before = now;
-      if (sweeps_ + 1 >= least && change_ < kSettled) {
-        ++sweeps_;
-        break;
-      }
     }
   }
 

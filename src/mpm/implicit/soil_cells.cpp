@@ -10,7 +10,6 @@ namespace mpm {
 namespace {
 
 constexpr double kRoot2 = 0.70710678118654752, kRoot3 = 0.57735026918962576, kRoot6 = 0.40824829046386302;
-constexpr double kSafe = 1.05;        ///< a cell's own answer is taken a little larger, since its parts are coupled
 constexpr double kDensest = 0.02;     ///< logarithmic volume: the most that is remembered of soil that is too dense
 constexpr double kGivenBack = 0.2;    ///< part of it that soil which is too dense gives back in a step
 constexpr double kThinnest = 1e-9;    ///< part of a box: a piece that is thinner is none
@@ -156,6 +155,45 @@ Matrix3<double> strained(const Matrix3<double>& f, const Matrix3<double>& a) {
                   1.0 + a.zz + 0.5 * s.zz},
                  f);
 }
+
+/// How a cell's rate of strain answers to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers
+/// that a velocity along the axis gives to e. What each cell takes for it, a number for e_N and one for e_T, must not be less
+/// in any direction, or sweeps make energy where a node is light.
+class CellAnswer {
+ public:
+  /// `g`: gradient of a node's shape function [1/m]; `im`: 1 / mass along each axis, 0 where it is held [1/kg].
+  void add(const double (&g)[3], const double (&im)[3]) {
+    const double x = g[0], y = g[1], z = g[2];
+    add({kRoot3 * x, kRoot2 * x, -kRoot6 * x, 0.0, kRoot2 * z, kRoot2 * y}, im[0]);
+    add({kRoot3 * y, -kRoot2 * y, -kRoot6 * y, kRoot2 * z, 0.0, kRoot2 * x}, im[1]);
+    add({kRoot3 * z, 0.0, 2.0 * kRoot6 * z, kRoot2 * y, kRoot2 * x, 0.0}, im[2]);
+  }
+  double normal() const { return w_[0][0] + coupling(); }
+  /// Gershgorin's bound of the largest eigenvalue, and the coupling.
+  double shear() const {
+    double most = 0.0;
+    for (int i = 1; i < 6; ++i) {
+      double sum = 0.0;
+      for (int j = 1; j < 6; ++j) sum += std::abs(w_[std::max(i, j)][std::min(i, j)]);
+      most = std::max(most, sum);
+    }
+    return most + coupling();
+  }
+
+ private:
+  void add(const std::array<double, 6>& w, double im) {
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) w_[i][j] += im * w[i] * w[j];
+    }
+  }
+  double coupling() const {
+    double sum = 0.0;
+    for (int i = 1; i < 6; ++i) sum += w_[i][0] * w_[i][0];
+    return std::sqrt(sum);
+  }
+
+  double w_[6][6] = {};
+};
 
 /// Calls visit(Solid()) or visit(PlaneStrain()).
 template <class Visit>
@@ -328,7 +366,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int block, int number, const std:
   const double& y = mean[1];
   const double& z = mean[2];
   const double inverse[3] = {layout.inverse_cell(0), dim == 3 ? layout.inverse_cell(1) : 0.0, layout.inverse_cell(dim - 1)};
-  double along_n = 0.0, along_t[5] = {};
+  CellAnswer answer;
   cell.mask = -1;
   mpm_kernel::SoilMask<T> mask;
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
@@ -366,13 +404,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int block, int number, const std:
       cell.mask = 0;
       held_[block].push_back({static_cast<int>(&cell - cells_.data()), wall, static_cast<std::uint8_t>(k), {g[0], g[1], g[2]}});
     }
-    const double xx = g[0] * g[0], yy = g[1] * g[1], zz = g[2] * g[2];
-    along_n += (xx * im[0] + yy * im[1] + zz * im[2]) / 3.0;
-    along_t[0] += 0.5 * (xx * im[0] + yy * im[1]);
-    along_t[1] += (4.0 * zz * im[2] + xx * im[0] + yy * im[1]) / 6.0;
-    along_t[2] += 0.5 * (yy * im[2] + zz * im[1]);
-    along_t[3] += 0.5 * (xx * im[2] + zz * im[0]);
-    along_t[4] += 0.5 * (xx * im[1] + yy * im[0]);
+    answer.add(g, im);
   }
   if (cell.mask == 0) {
     cell.mask = static_cast<int>(masks_[block].size());
@@ -380,7 +412,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int block, int number, const std:
   }
   const mpm_kernel::SoilLaw<double>& law = bodies_[cell.law].soil.law;
   const double push = dt * sums.volume, opening = per_volume * sums.opening;
-  const double weight_n = kSafe * push * along_n, weight_t = kSafe * push * *std::max_element(along_t, along_t + 5);
+  const double weight_n = push * answer.normal(), weight_t = push * answer.shear();
   cell.push = static_cast<T>(push);
   cell.weight_n = static_cast<T>(weight_n);
   cell.weight_t = static_cast<T>(weight_t);

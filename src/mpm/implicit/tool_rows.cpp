@@ -12,6 +12,11 @@ constexpr double kPresent = 0.1;    ///< of the soil's density, from which on a 
 
 double at_least_zero(double value) { return std::max(value, 0.0); }
 
+template <class T>
+double magnitude(const T (&v)[3]) {
+  return std::sqrt(static_cast<double>(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+}
+
 }  // namespace
 
 template <class T>
@@ -36,7 +41,7 @@ void ToolRows<T>::put_out(std::vector<ParticleSet>& sets) const {
     const Pose& pose = body->pose();
     for (ParticleSet& set : sets) {
       const int count = set.awake();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
       for (int p = 0; p < count; ++p) {
         Vec3 at = Vec3::Zero();
         bool inside = true;
@@ -75,20 +80,28 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   }
   int block = 0;
   if (!grid_.find(cell, block, local)) return false;
-  double own[3] = {}, mass = 0.0;
+  // Nodes without material do not count: what is left of the weights sums to one.
+  double weights[mpm_kernel::kCellNodes] = {}, carrying = 0.0, mass = 0.0;
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     row.node[e] = e < corners ? grid_.corner(block, local, e) : grid_.nodes();
-    double weight = e < corners ? 1.0 : 0.0;
-    for (int k = 0; k < dim && e < corners; ++k) weight *= (e >> k & 1) != 0 ? part[k] : 1.0 - part[k];
     const double im = static_cast<double>(nodes[row.node[e]].inverse_mass);
-    if (im > 0.0) mass += weight / im;
+    if (!(im > 0.0)) continue;
+    weights[e] = 1.0;
+    for (int k = 0; k < dim; ++k) weights[e] *= (e >> k & 1) != 0 ? part[k] : 1.0 - part[k];
+    carrying += weights[e];
+    mass += weights[e] / im;
+  }
+  static const double present = std::getenv("PRES") ? std::atof(std::getenv("PRES")) : kPresent; if (!(mass > present * settings_.least_density * volume)) return false;
+  double own[3] = {};
+  for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
+    const double weight = weights[e] / carrying;
+    place.weight[e] = weight;
     for (int a = 0; a < 3; ++a) {
       const bool held = grid_.holder(row.node[e], a) != SoilGrid::kFree;
       row.weight[a][e] = held ? T(0) : static_cast<T>(weight);
-      if (!held) own[a] += weight * weight * im;
+      if (!held) own[a] += weight * weight * static_cast<double>(nodes[row.node[e]].inverse_mass);
     }
   }
-  if (!(mass > kPresent * settings_.least_density * volume)) return false;
   const double most = std::max({own[0], own[1], own[2]});
   if (!(most > 0.0)) return false;
   row.own = static_cast<T>(most);
@@ -98,7 +111,11 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
     row.normal[a] = static_cast<T>(normal[a]);
     row.velocity[a] = static_cast<T>(velocity[a]);
   }
-  place = {body, sample, block, at, point.area};
+  place.body = body;
+  place.sample = sample;
+  place.block = block;
+  place.at = at;
+  place.area = point.area;
   const Kept& kept = kept_[body];
   const double ratio = std::min(1.0, kept.own[sample] / most);
   Vec3 impulse(kept.impulse[3 * sample], kept.impulse[3 * sample + 1], kept.impulse[3 * sample + 2]);
@@ -138,20 +155,15 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
     places_[at] = found_places_[i];
   }
   held_.clear();
-  const GridLayout& layout = grid_.grid().layout;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
-    for (int e = 0; e < 1 << layout.dim(); ++e) {
-      double weight = 1.0;
-      for (int k = 0; k < layout.dim(); ++k) {
-        const double in_cells = layout.in_cells(k, places_[i].at[layout.axis(k)]), part = in_cells - std::floor(in_cells);
-        weight *= (e >> k & 1) != 0 ? part : 1.0 - part;
-      }
+    for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       Node& node = nodes[row.node[e]];
       for (int a = 0; a < 3; ++a) {
         node.v[a] += node.inverse_mass * row.weight[a][e] * row.impulse[a];
         const std::uint8_t wall = grid_.holder(row.node[e], a);
-        if (wall != SoilGrid::kFree) held_.push_back({static_cast<int>(i), wall, static_cast<std::uint8_t>(a), weight});
+        if (wall == SoilGrid::kFree || places_[i].weight[e] == 0.0) continue;
+        held_.push_back({static_cast<int>(i), wall, static_cast<std::uint8_t>(a), places_[i].weight[e]});
       }
     }
   }
@@ -160,8 +172,19 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
 template <class T>
 double ToolRows<T>::pressed() const {
   double sum = 0.0;
-  for (const Row& row : rows_) sum += std::sqrt(static_cast<double>(row.impulse[0] * row.impulse[0] + row.impulse[1] * row.impulse[1] + row.impulse[2] * row.impulse[2]));
+  for (const Row& row : rows_) sum += magnitude(row.impulse);
   return sum;
+}
+
+template <class T>
+double ToolRows<T>::pressure(double dt) const {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double impulse = magnitude(rows_[i].impulse), area = places_[i].area * settings_.across;
+    sum += impulse;
+    squares += impulse * impulse / (area * dt);
+  }
+  return sum > 0.0 ? squares / sum : 0.0;
 }
 
 template <class T>

@@ -280,11 +280,16 @@ double sweep(const SoilBlock<T>& block, const SoilLaw<T>* laws, SoilNode<T>* nod
   } else {
     for (int i = 0; i < block.cell_count; ++i) change += relax(block.cells[i], laws, block.masks, nodes);
   }
+  return change;
+}
+
+template <class T>
+void meet(const SoilBlock<T>& block, SoilNode<T>* nodes) {
+  constexpr int kPasses = 2;  // rows of a body bind the same nodes
   for (int i = 0; i < block.wall_count; ++i) relax(block.walls[i], nodes);
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < kPasses; ++pass) {
     for (int i = 0; i < block.row_count; ++i) relax(block.rows[i], nodes);
   }
-  return change;
 }
 
 template <class T>
@@ -305,8 +310,8 @@ void flow(const SoilCell<T>& cell, const SoilLaw<T>& law, const SoilNode<T>* nod
 }  // namespace
 
 const mpm_kernel::SweepFamily& soil_sweeps() {
-  static constexpr mpm_kernel::SweepFamily kFamily{{&push<double>, &sweep<double>, &flow<double>, &solve<double>},
-                                                   {&push<float>, &sweep<float>, &flow<float>, &solve<float>}};
+  static constexpr mpm_kernel::SweepFamily kFamily{{&push<double>, &sweep<double>, &meet<double>, &flow<double>, &solve<double>},
+                                                   {&push<float>, &sweep<float>, &meet<float>, &flow<float>, &solve<float>}};
   return kFamily;
 }
 

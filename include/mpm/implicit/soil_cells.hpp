@@ -40,7 +40,7 @@ struct SoilBody {
 template <class T>
 class SoilCells {
  public:
-  using Cell = mpm_kernel::SoilCell<T>;
+  using Group = mpm_kernel::SoilGroup<T>;
   using Node = mpm_kernel::SoilNode<T>;
 
   SoilCells(std::vector<SoilBody> bodies, const SoilGrid& grid, GeometryKind geometry, int threads);
@@ -53,13 +53,10 @@ class SoilCells {
   /// Gives the particles the strain of the step, and the stresses that were found.
   void take(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt);
 
-  /// The cells in a block.
-  int begin(int block) const { return begin_[block]; }
+  /// The groups of cells in a block.
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
-  Cell* cells(int block) { return cells_.data() + begin_[block]; }
+  Group* groups(int block) { return groups_.data() + begin_[block]; }
   const mpm_kernel::SoilMask<T>* masks(int block) const { return masks_[block].data(); }
-  std::size_t size() const { return cells_.size(); }
-  const std::vector<mpm_kernel::SoilLaw<T>>& laws() const { return laws_; }
 
   /// What stresses give to the components of velocity that walls hold [N s], in the order of kWallNames.
   void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
@@ -77,22 +74,23 @@ class SoilCells {
   };
   /// What a cell gives to particles.
   struct Motion {
-    double gradient[9];  ///< of velocity, row by row [1/s]
-    double stress[6];    ///< r
+    double gradient[9];     ///< of velocity, row by row [1/s]
+    double stress[6];       ///< r [Pa]
     double opening, shear;  ///< rates of opening and of plastic shear [1/s]
     double power;           ///< of the stress on the strain, over volume [W/m^3]
   };
   /// A component of a node's velocity that a wall holds, in a cell.
   struct HeldEntry {
-    int cell;
+    int group, lane;
     std::uint8_t wall, axis;
     double gradient[3];  ///< of the node's shape function [1/m]
   };
   template <class Geometry>
   void gather_block(int body, int owner);
-  void make_cells(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block);
-  void make_cell(const Sums& sums, int block, int local, const std::vector<Node>& nodes, double dt, Cell& cell);
-  void find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int cell);
+  void make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block);
+  void make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, const std::vector<Node>& nodes, double dt,
+                 int group, int lane, mpm_kernel::SoilMask<T>& mask);
+  void find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, int group);
   template <class Geometry, class LawType>
   void take_block(int body, const LawType& law, int owner, double dt);
   /// Where a body's sums in a block begin, or -1.
@@ -103,13 +101,12 @@ class SoilCells {
   GeometryKind geometry_;
   int threads_;
   int blocks_ = 0;
-  std::vector<mpm_kernel::SoilLaw<T>> laws_;
   std::vector<int> slots_;
   std::vector<Sums> sums_;
-  std::vector<int> cell_of_;  ///< of each of the sums, its cell, or -1
-  std::vector<int> begin_;
-  std::vector<Cell> cells_;
-  std::vector<Motion> motion_;
+  std::vector<int> lane_of_;  ///< of each of the sums with soil, 8 * group + lane
+  std::vector<int> begin_;    ///< of each block, its first group
+  std::vector<Group> groups_;
+  std::vector<Motion> motion_;  ///< of each lane
   std::vector<std::vector<HeldEntry>> held_;                 ///< of each block
   std::vector<std::vector<mpm_kernel::SoilMask<T>>> masks_;  ///< of each block
   double least_density_ = 0.0;

@@ -1,16 +1,14 @@
 // Soil as the implicit step sees it: cone, flow and elasticity of a material's definition.
 //
 // Strength is that of the explicit law (drucker_prager.hpp, mohr_coulomb.hpp): a round cone, or Mohr-Coulomb's surface in
-// invariants, sqrt(J2) k(phi) <= c cos(phi) + p sin(phi) with the k of the Lode angle. With r_N = sqrt(3) p and
-// |r_T| = sqrt(2 J2) that is strength + slope r_N of soil_cells.hpp. Flow is radial in the deviatoric plane; dilation
-// ends and strength falls as in the explicit laws (softening.hpp).
+// invariants, sqrt(J2) k(phi) <= c cos(phi) + p sin(phi) with the k of the Lode angle (kernel/soil_cells.hpp). Flow is radial in
+// the deviatoric plane; dilation ends and strength falls as in the explicit laws (softening.hpp).
 //
 // Weak: for mohr_coulomb flow has no corners, and its tension limit is one of the mean stress, as for drucker_prager.
 #pragma once
 
 #include <string>
 
-#include "mpm/kernel/soil_cells.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/material/opening.hpp"
 #include "mpm/material/softening.hpp"
@@ -25,13 +23,14 @@ struct ImplicitSoil {
   explicit ImplicitSoil(const MaterialDefinition& material);
 
   double density;  ///< [kg/m^3]
-  mpm_kernel::SoilLaw<double> law;
+  /// sin(phi) and c cos(phi) [Pa]; of a round cone eta and xi c, which fall in the same way.
+  Fall sine, cohesion;
+  double dilation;               ///< sin(psi), or eta_bar
+  bool follows_lode;             ///< false for a round cone
+  double least;                  ///< r_N at which it parts: minus sqrt(3) times the mean tension that it bears [Pa]
+  double compliance_n, compliance_t;  ///< elastic, of e_N / r_N and e_T / r_T [1/Pa]
   DilationEnd dilation_end;
   StrengthFall fall;
-
-  /// The same numbers in another precision.
-  template <class T>
-  mpm_kernel::SoilLaw<T> law_in() const;
 };
 
 }  // namespace mpm

@@ -8,20 +8,24 @@
 //
 // With the gradients B of the cell's eight nodes (four in a plane, where the others have no mass) e = B v, and a stress
 // gives the nodes the momentum dt V B^T r. A sweep takes cell after cell and solves its law for its own stress, in closed
-// form, with the velocities as they are: Gauss-Seidel.
+// form, with the velocities as they are: Gauss-Seidel. Cells of a block whose numbers along each axis are odd or even alike share no
+// node: eight of them are solved at once, one a lane.
 //
-//   |r_T| <= Y(r_N) = strength + slope r_N, r_N >= least; flow e_T = -a r_T, e_N = dilation |e_T|.
+//   |r_T| <= sqrt(2) (cohesion + sine r_N / sqrt(3)) / k(sine), r_N >= least; flow e_T = -a r_T, e_N = theta |e_T|,
+//   theta = dilates sqrt(2/3) dilation / k(dilation),
 //
-// Strength, slope and dilation follow the Lode angle of -b_T, the direction of r_T whatever its size: tables over the sine of
-// three times that angle. Source: G. Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the
-// continuum simulation of granular materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at
-// no pressure, a limit of tension and the Lode angle is this project's.
+// with the k of Mohr-Coulomb's surface at the Lode angle of r_T (material/drucker_prager.hpp), whose direction is that of -b_T
+// whatever its size; of a round cone k is 1. With b = e - W r + shift, what the cell's rate would be without its stress, and
+// the diagonal numbers w that stand for its answer to it: stick r = -b / w, or slide, or part.
+// Source: G. Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the continuum simulation of
+// granular materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at no pressure, a limit of
+// tension and the Lode angle is this project's.
 #pragma once
 
 namespace mpm_kernel {
 
 constexpr int kCellNodes = 8;
-constexpr int kLodeSteps = 64;  ///< of the tables, from -1 to 1
+constexpr int kGroupCells = 8;
 
 /// A node as sweeps see it.
 template <class T>
@@ -30,38 +34,37 @@ struct alignas(4 * sizeof(T)) SoilNode {
   T inverse_mass;  ///< [1/kg]; 0 where no material is
 };
 
-/// A soil, over the sine of three times the Lode angle.
+/// Cells that share no node, one a lane. A lane without a cell has `push` 0 and nodes without mass.
 template <class T>
-struct SoilLaw {
-  T strength[kLodeSteps + 2];  ///< of r_T where r_N is 0 [Pa]
-  T slope[kLodeSteps + 2];
-  T dilation[kLodeSteps + 2];
-  T residual_strength[kLodeSteps + 2], residual_slope[kLodeSteps + 2];  ///< of the critical state
-  T least;                      ///< r_N at which the soil parts: minus sqrt(3) times the tension that it bears [Pa]
-  T compliance_n, compliance_t;  ///< elastic, of e_N / r_N and of e_T / r_T [1/Pa]
+struct alignas(64) SoilGroup {
+  T gradient[3][kCellNodes][kGroupCells];   ///< mean of the nodes' over the soil in the cell [1/m]
+  T stress[6][kGroupCells];                 ///< r [Pa]
+  T shift[6][kGroupCells];                  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
+  T closing[kGroupCells];                   ///< part of shift[0] by which openings close, or volume is given back [1/s]
+  T weight_n[kGroupCells], weight_t[kGroupCells];          ///< change of the cell's e by its own r, at least [1/(Pa s)]
+  T compliance_n[kGroupCells], compliance_t[kGroupCells];  ///< elastic, over the step [1/(Pa s)]
+  T push[kGroupCells];                                     ///< dt V [m^3 s]
+  T sine[kGroupCells], cohesion[kGroupCells];              ///< of the surface; cohesion [Pa]
+  T dilation[kGroupCells], dilates[kGroupCells];
+  T least[kGroupCells];  ///< r_N at which the soil parts, if not at no strength [Pa]
+  T lode[kGroupCells];   ///< 1 where k follows the Lode angle, 0 for a round cone
+  int node[kCellNodes][kGroupCells];
+  int mask;  ///< number of its SoilMask; -1: no node of it is held
 };
 
-/// Where walls hold nodes of a cell: 0 for the components that they hold, else 1.
+/// Where walls hold nodes of a group: 0 for the components of velocity that they hold, else 1.
 template <class T>
 struct SoilMask {
-  T free[3][kCellNodes];
+  T free[3][kCellNodes][kGroupCells];
 };
 
-/// A cell with soil.
+/// What the velocities that were found do to the cells of a group.
 template <class T>
-struct alignas(64) SoilCell {
-  T gradient[3][kCellNodes];  ///< mean of the nodes' over the soil in the cell [1/m]
-  T stress[8];                ///< r [Pa], and two numbers that are 0
-  T shift[8];                 ///< added to e: what the elastic part takes from the step's start, and the opening [1/s]
-  T weight_n, weight_t;       ///< change of the cell's own e by its own r [1/(Pa s)]
-  T own_n, own_t;             ///< the same with the compliance
-  T closing;                  ///< part of shift[0] by which it closes, or gives back volume [1/s]
-  T push;                     ///< dt V [m^3 s]
-  T left;                     ///< of the way from residual to peak strength
-  T dilates;                  ///< part of the dilation that is left
-  int law;
-  int mask;  ///< number of its SoilMask; -1: no node of it is held
-  int node[kCellNodes];
+struct SoilFlow {
+  T rate[6][kGroupCells];   ///< e [1/s]
+  T shear[kGroupCells];     ///< |e_T| of its part that is not elastic [1/s]
+  T opening[kGroupCells];   ///< e_N - theta |e_T| of that part [1/s]
+  T gradient[9][kGroupCells];  ///< of velocity, row by row [1/s]
 };
 
 /// A point of a rigid body at which contact acts on the nodes around it.
@@ -80,37 +83,34 @@ struct ContactRow {
 template <class T>
 struct WallRow {
   int node;
-  int axis;            ///< across the wall
-  T out;               ///< 1 where the material lies towards higher numbers, else -1
-  T free[3];           ///< 1 along axes on which no other wall holds the node, else 0
-  T friction;          ///< coefficient; negative: no sliding
-  T impulse[3];        ///< [N s]
+  int axis;       ///< across the wall
+  T out;          ///< 1 where the material lies towards higher numbers, else -1
+  T free[3];      ///< 1 along axes on which no other wall holds the node, else 0
+  T friction;     ///< coefficient; negative: no sliding
+  T impulse[3];   ///< [N s]
 };
 
 /// What is swept in one block, in this order or backwards.
 template <class T>
 struct SoilBlock {
-  SoilCell<T>* cells;
+  SoilGroup<T>* groups;
   ContactRow<T>* rows;
   WallRow<T>* walls;
   const SoilMask<T>* masks;
-  int cell_count, row_count, wall_count;
+  int group_count, row_count, wall_count;
 };
 
 template <class T>
 struct SweepTable {
+  /// Returns stresses to the surface of their soil, with the same direction of r_T.
+  void (*project)(SoilGroup<T>&);
   /// Gives the nodes the momentum of the cells' stresses.
   void (*push)(const SoilBlock<T>&, SoilNode<T>* nodes);
-  /// Solves the cells of a block once. Returns the sum over cells of the square of the change of stress by
-  /// `push * own`, so that blocks can be compared [J].
-  double (*sweep)(const SoilBlock<T>&, const SoilLaw<T>*, SoilNode<T>* nodes, bool backwards);
+  /// Solves the cells of a block once.
+  void (*sweep)(const SoilBlock<T>&, SoilNode<T>* nodes, bool backwards);
   /// Solves the contacts of a block, walls first.
   void (*meet)(const SoilBlock<T>&, SoilNode<T>* nodes);
-  /// What the velocities that were found do to a cell: its rate of strain e, six numbers; the plastic shear |e_T| and the
-  /// opening e_N - dilation |e_T| of the part of it that is not elastic [1/s].
-  void (*flow)(const SoilCell<T>&, const SoilLaw<T>&, const SoilNode<T>* nodes, T dt, T* e, T* shear, T* opening);
-  /// The law alone: the stress for which e = w r + b.
-  void (*solve)(const SoilLaw<T>&, T own_n, T own_t, T left, T dilates, const T* b, T* r);
+  void (*flow)(const SoilGroup<T>&, const SoilNode<T>* nodes, SoilFlow<T>&);
 };
 
 /// One instruction set.

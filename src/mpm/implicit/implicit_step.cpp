@@ -83,9 +83,13 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
  private:
   mpm_kernel::SoilBlock<T> block_at(int block) {
-    return {cells_.cells(block), tools_.count(block) > 0 ? tools_.rows(block) : nullptr,
-            walls_.count(block) > 0 ? walls_.rows(block) : nullptr, cells_.masks(block),
-            cells_.count(block), tools_.count(block), walls_.count(block)};
+    return {cells_.groups(block),
+            tools_.count(block) > 0 ? tools_.rows(block) : nullptr,
+            walls_.count(block) > 0 ? walls_.rows(block) : nullptr,
+            cells_.masks(block),
+            cells_.count(block),
+            tools_.count(block),
+            walls_.count(block)};
   }
   /// Before rows are known.
   void begin_work() {
@@ -129,7 +133,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
       const bool backwards = sweep % 2 == 1;
       const double before = sweep + 1 == sweeps_ ? tools_.pressed() : 0.0;
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
-        table_.sweep(block_at(block), cells_.laws().data(), nodes_.data(), backwards);
+        table_.sweep(block_at(block), nodes_.data(), backwards);
       });
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.meet(block_at(block), nodes_.data()); });
       if (sweep + 1 < sweeps_) continue;

@@ -195,6 +195,28 @@ class CellAnswer {
   double w_[6][6] = {};
 };
 
+/// Of a cell, by its number in its block: whether its numbers along the axes are odd.
+int colour(int number, int dim) {
+  int bits = 0;
+  for (int k = 0; k < dim; ++k, number /= kBlockEdge) bits |= (number & 1) << k;
+  return bits;
+}
+
+/// A lane without a cell: that of the first one, which moves nothing.
+template <class T>
+void copy_without_soil(mpm_kernel::SoilGroup<T>& group, int lane, int no_node) {
+  for (auto& axis : group.gradient) {
+    for (auto& node : axis) node[lane] = T(0);
+  }
+  for (auto& node : group.node) node[lane] = no_node;
+  for (int i = 0; i < 6; ++i) group.stress[i][lane] = group.shift[i][lane] = T(0);
+  for (auto* numbers : {&group.weight_n, &group.weight_t, &group.compliance_n, &group.compliance_t, &group.sine, &group.cohesion,
+                        &group.dilation, &group.dilates, &group.least, &group.lode, &group.closing}) {
+    (*numbers)[lane] = (*numbers)[0];
+  }
+  group.push[lane] = T(0);
+}
+
 /// Calls visit(Solid()) or visit(PlaneStrain()).
 template <class Visit>
 void in_space_or_plane(GeometryKind geometry, Visit&& visit) {
@@ -218,10 +240,7 @@ template <class T>
 SoilCells<T>::SoilCells(std::vector<SoilBody> bodies, const SoilGrid& grid, GeometryKind geometry, int threads)
     : bodies_(std::move(bodies)), grid_(grid), geometry_(geometry), threads_(threads) {
   least_density_ = bodies_.front().soil.density;
-  for (const SoilBody& body : bodies_) {
-    laws_.push_back(body.soil.template law_in<T>());
-    least_density_ = std::min(least_density_, body.soil.density);
-  }
+  for (const SoilBody& body : bodies_) least_density_ = std::min(least_density_, body.soil.density);
 }
 
 // A particle's box lies in the blocks around its owner.
@@ -245,7 +264,7 @@ void SoilCells<T>::rebuild() {
     }
   }
   if (used > sums_.size()) sums_.resize(used + used / 16);
-  if (sums_.size() > cell_of_.size()) cell_of_.resize(sums_.size());
+  if (sums_.size() > lane_of_.size()) lane_of_.resize(sums_.size());
   begin_.resize(blocks_ + 1);
   held_.resize(std::max<std::size_t>(held_.size(), blocks_));
   masks_.resize(held_.size());
@@ -309,56 +328,75 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
     });
   });
   grid_.shares().at_once(threads_, [&](int block) {
-    int count = 0;
+    int groups = 0;
     each_slot(block, [&](int, int at) {
-      for (int n = 0; n < per_block; ++n) count += sums_[at + n].volume > 0.0;
+      std::array<int, 8> cells{};
+      for (int n = 0; n < per_block; ++n) cells[colour(n, grid.layout.dim())] += sums_[at + n].volume > 0.0;
+      for (const int count : cells) groups += (count + mpm_kernel::kGroupCells - 1) / mpm_kernel::kGroupCells;
     });
-    begin_[block + 1] = count;
+    begin_[block + 1] = groups;
   });
   begin_[0] = 0;
   for (int block = 0; block < blocks_; ++block) begin_[block + 1] += begin_[block];
   const std::size_t size = begin_[blocks_];
-  if (size > cells_.capacity()) {
-    cells_.reserve(size + size / 8);
-    motion_.reserve(size + size / 8);
+  if (size > groups_.capacity()) {
+    groups_.reserve(size + size / 8);
+    motion_.reserve(mpm_kernel::kGroupCells * (size + size / 8));
   }
-  cells_.resize(size);
-  motion_.resize(size);
-  grid_.shares().at_once(threads_, [&](int block) { make_cells(table, nodes, dt, block); });
+  groups_.resize(size);
+  motion_.resize(mpm_kernel::kGroupCells * size);
+  grid_.shares().at_once(threads_, [&](int block) { make_groups(table, nodes, dt, block); });
 }
 
 template <class T>
-void SoilCells<T>::make_cells(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block) {
+void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block) {
   held_[block].clear();
   masks_[block].clear();
   int next = begin_[block];
   if (next == begin_[block + 1]) return;
-  const int per_block = grid_.grid().layout.nodes_per_block();
-  for (int n = 0; n < per_block; ++n) {
-    for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
-      const int at = slot(body, block);
-      if (at < 0) continue;
-      cell_of_[at + n] = -1;
-      if (!(sums_[at + n].volume > 0.0)) continue;
-      Cell& cell = cells_[next];
-      cell.law = body;
-      make_cell(sums_[at + n], block, n, nodes, dt, cell);
-      // Into the surface: the law, with the stress as the one that keeps the strain.
-      T b[6], r[6];
-      for (int k = 0; k < 6; ++k) b[k] = -cell.stress[k];
-      table.solve(laws_[body], T(1), T(1), cell.left, T(0), b, r);
-      std::copy(r, r + 6, cell.stress);
-      cell_of_[at + n] = next++;
+  const int dim = grid_.grid().layout.dim(), per_block = grid_.grid().layout.nodes_per_block();
+  const auto finish = [&](mpm_kernel::SoilMask<T>& mask, int lanes) {
+    Group& group = groups_[next];
+    for (int lane = lanes; lane < mpm_kernel::kGroupCells; ++lane) copy_without_soil(group, lane, grid_.nodes());
+    if (group.mask == 0) {
+      group.mask = static_cast<int>(masks_[block].size());
+      masks_[block].push_back(mask);
+    }
+    table.project(group);
+    ++next;
+  };
+  for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
+    const int at = slot(body, block);
+    if (at < 0) continue;
+    for (int c = 0; c < 1 << dim; ++c) {
+      mpm_kernel::SoilMask<T> mask;
+      int lanes = 0;
+      for (int n = 0; n < per_block; ++n) {
+        if (colour(n, dim) != c || !(sums_[at + n].volume > 0.0)) continue;
+        if (lanes == 0) {
+          std::fill_n(&mask.free[0][0][0], sizeof(mask) / sizeof(T), T(1));
+          groups_[next].mask = -1;
+        }
+        std::array<int, 3> local{};
+        for (int k = dim - 1, rest = n; k >= 0; --k, rest /= kBlockEdge) local[k] = rest % kBlockEdge;
+        make_cell(sums_[at + n], body, block, local, nodes, dt, next, lanes, mask);
+        lane_of_[at + n] = mpm_kernel::kGroupCells * next + lanes;
+        if (++lanes == mpm_kernel::kGroupCells) {
+          finish(mask, lanes);
+          lanes = 0;
+        }
+      }
+      if (lanes > 0) finish(mask, lanes);
     }
   }
 }
 
 template <class T>
-void SoilCells<T>::make_cell(const Sums& sums, int block, int number, const std::vector<Node>& nodes, double dt, Cell& cell) {
+void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, const std::vector<Node>& nodes,
+                             double dt, int number, int lane, mpm_kernel::SoilMask<T>& mask) {
+  Group& group = groups_[number];
   const GridLayout& layout = grid_.grid().layout;
   const int dim = layout.dim(), corners = 1 << dim;
-  std::array<int, 3> local{};
-  for (int k = dim - 1, rest = number; k >= 0; --k, rest /= kBlockEdge) local[k] = rest % kBlockEdge;
   const double per_volume = 1.0 / sums.volume;
   double mean[6];
   for (int i = 0; i < 6; ++i) mean[i] = per_volume * sums.place[i];
@@ -367,18 +405,14 @@ void SoilCells<T>::make_cell(const Sums& sums, int block, int number, const std:
   const double& z = mean[2];
   const double inverse[3] = {layout.inverse_cell(0), dim == 3 ? layout.inverse_cell(1) : 0.0, layout.inverse_cell(dim - 1)};
   CellAnswer answer;
-  cell.mask = -1;
-  mpm_kernel::SoilMask<T> mask;
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
-    for (int a = 0; a < 3; ++a) {
-      cell.gradient[a][e] = T(0);
-      mask.free[a][e] = T(1);
-    }
+    for (int a = 0; a < 3; ++a) group.gradient[a][e][lane] = T(0);
     if (e >= corners) {
-      cell.node[e] = grid_.nodes();
+      group.node[e][lane] = grid_.nodes();
       continue;
     }
-    cell.node[e] = grid_.corner(block, local, e);
+    const int node = grid_.corner(block, local, e);
+    group.node[e][lane] = node;
     // Hat functions along the axes: a + s x, a = 1 and s = -1 at the lower node, 0 and 1 at the upper one; 1 along y in
     // a plane.
     const bool up[3] = {(e & 1) != 0, dim == 3 && (e & 2) != 0, (e >> (dim - 1) & 1) != 0};
@@ -392,80 +426,73 @@ void SoilCells<T>::make_cell(const Sums& sums, int block, int number, const std:
         s[0] * inverse[0] * (a[1] * a[2] + a[2] * s[1] * y + a[1] * s[2] * z + s[1] * s[2] * mean[5]),
         s[1] * inverse[1] * (a[0] * a[2] + a[2] * s[0] * x + a[0] * s[2] * z + s[0] * s[2] * mean[4]),
         s[2] * inverse[2] * (a[0] * a[1] + a[1] * s[0] * x + a[0] * s[1] * y + s[0] * s[1] * mean[3])};
-    const int node = cell.node[e];
     double im[3];
     for (int k = 0; k < 3; ++k) {
-      cell.gradient[k][e] = static_cast<T>(g[k]);
+      group.gradient[k][e][lane] = static_cast<T>(g[k]);
       im[k] = nodes[node].inverse_mass;
       const std::uint8_t wall = grid_.holder(node, k);
       if (wall == SoilGrid::kFree) continue;
       im[k] = 0.0;
-      mask.free[k][e] = T(0);
-      cell.mask = 0;
-      held_[block].push_back({static_cast<int>(&cell - cells_.data()), wall, static_cast<std::uint8_t>(k), {g[0], g[1], g[2]}});
+      mask.free[k][e][lane] = T(0);
+      group.mask = 0;
+      held_[block].push_back({number, lane, wall, static_cast<std::uint8_t>(k), {g[0], g[1], g[2]}});
     }
     answer.add(g, im);
   }
-  if (cell.mask == 0) {
-    cell.mask = static_cast<int>(masks_[block].size());
-    masks_[block].push_back(mask);
-  }
-  const mpm_kernel::SoilLaw<double>& law = bodies_[cell.law].soil.law;
-  const double push = dt * sums.volume, opening = per_volume * sums.opening;
-  const double weight_n = push * answer.normal(), weight_t = push * answer.shear();
-  cell.push = static_cast<T>(push);
-  cell.weight_n = static_cast<T>(weight_n);
-  cell.weight_t = static_cast<T>(weight_t);
-  cell.own_n = static_cast<T>(weight_n + law.compliance_n / dt);
-  cell.own_t = static_cast<T>(weight_t + law.compliance_t / dt);
-  cell.left = static_cast<T>(per_volume * sums.left);
-  cell.dilates = static_cast<T>(per_volume * sums.dilates);
+  const ImplicitSoil& soil = bodies_[body].soil;
+  const double push = dt * sums.volume, opening = per_volume * sums.opening, left = per_volume * sums.left;
+  group.push[lane] = static_cast<T>(push);
+  group.weight_n[lane] = static_cast<T>(push * answer.normal());
+  group.weight_t[lane] = static_cast<T>(push * answer.shear());
+  group.compliance_n[lane] = static_cast<T>(soil.compliance_n / dt);
+  group.compliance_t[lane] = static_cast<T>(soil.compliance_t / dt);
+  group.sine[lane] = static_cast<T>(soil.sine.at(left));
+  group.cohesion[lane] = static_cast<T>(soil.cohesion.at(left));
+  group.dilation[lane] = static_cast<T>(soil.dilation);
+  group.dilates[lane] = static_cast<T>(per_volume * sums.dilates);
+  group.least[lane] = static_cast<T>(soil.least);
+  group.lode[lane] = soil.follows_lode ? T(1) : T(0);
+  group.closing[lane] = static_cast<T>(kRoot3 * (opening > 0.0 ? opening : kGivenBack * opening) / dt);
   for (int i = 0; i < 6; ++i) {
     const double r = per_volume * sums.stress[i];
-    cell.stress[i] = static_cast<T>(r);
-    cell.shift[i] = static_cast<T>(-(i == 0 ? law.compliance_n : law.compliance_t) / dt * r);
+    group.stress[i][lane] = static_cast<T>(r);
+    group.shift[i][lane] = static_cast<T>(-(i == 0 ? soil.compliance_n : soil.compliance_t) / dt * r);
   }
-  cell.closing = static_cast<T>(kRoot3 * (opening > 0.0 ? opening : kGivenBack * opening) / dt);
-  cell.shift[0] += cell.closing;
-  for (int i = 6; i < 8; ++i) cell.stress[i] = cell.shift[i] = T(0);
+  group.shift[0][lane] += group.closing[lane];
 }
 
 template <class T>
 void SoilCells<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) const {
   for (int block = 0; block < blocks_; ++block) {
     for (const HeldEntry& held : held_[block]) {
-      const Cell& cell = cells_[held.cell];
+      const Group& group = groups_[held.group];
       double r[6];
-      std::copy(cell.stress, cell.stress + 6, r);
+      for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][held.lane]);
       const Symmetric3<double> s = tensor_of(r);
       const double* g = held.gradient;
       const double rows[3] = {s.xx * g[0] + s.xy * g[1] + s.xz * g[2], s.xy * g[0] + s.yy * g[1] + s.yz * g[2],
                               s.xz * g[0] + s.yz * g[1] + s.zz * g[2]};
-      walls[held.wall][held.axis] -= static_cast<double>(cell.push) * rows[held.axis];  // tension is positive in s
+      walls[held.wall][held.axis] -= static_cast<double>(group.push[held.lane]) * rows[held.axis];  // tension is positive in s
     }
   }
 }
 
 template <class T>
-void SoilCells<T>::find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int number) {
-  const Cell& cell = cells_[number];
-  Motion& motion = motion_[number];
-  T e[6], shear, opening;
-  table.flow(cell, laws_[cell.law], nodes.data(), static_cast<T>(dt), e, &shear, &opening);
-  std::fill(motion.gradient, motion.gradient + 9, 0.0);
-  for (int n = 0; n < mpm_kernel::kCellNodes; ++n) {
-    const Node& node = nodes[cell.node[n]];
-    for (int a = 0; a < 3; ++a) {
-      for (int k = 0; k < 3; ++k) motion.gradient[3 * a + k] += static_cast<double>(node.v[a]) * static_cast<double>(cell.gradient[k][n]);
+void SoilCells<T>::find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, int number) {
+  const Group& group = groups_[number];
+  mpm_kernel::SoilFlow<T> flow;
+  table.flow(group, nodes.data(), flow);
+  for (int lane = 0; lane < mpm_kernel::kGroupCells; ++lane) {
+    Motion& motion = motion_[mpm_kernel::kGroupCells * number + lane];
+    for (int i = 0; i < 9; ++i) motion.gradient[i] = static_cast<double>(flow.gradient[i][lane]);
+    motion.power = 0.0;
+    for (int i = 0; i < 6; ++i) {
+      motion.stress[i] = static_cast<double>(group.stress[i][lane]);
+      motion.power -= motion.stress[i] * static_cast<double>(flow.rate[i][lane]);
     }
+    motion.shear = static_cast<double>(flow.shear[lane]);
+    motion.opening = static_cast<double>(flow.opening[lane]);
   }
-  motion.power = 0.0;
-  for (int i = 0; i < 6; ++i) {
-    motion.stress[i] = static_cast<double>(cell.stress[i]);
-    motion.power -= motion.stress[i] * static_cast<double>(e[i]);
-  }
-  motion.shear = static_cast<double>(shear);
-  motion.opening = static_cast<double>(opening);
 }
 
 template <class T>
@@ -483,7 +510,7 @@ void SoilCells<T>::take_block(int body, const LawType& law, int owner, double dt
     const auto pieces = pieces_of<Geometry::kDim>(set, p, grid.layout, first);
     for (int n = 0; n < pieces.count; ++n) {
       const auto [neighbour, local] = place_of<Geometry::kDim>(pieces.cell[n]);
-      const Motion& motion = motion_[cell_of_[slot(body, grid.blocks.neighbours(owner)[neighbour]) + local]];
+      const Motion& motion = motion_[lane_of_[slot(body, grid.blocks.neighbours(owner)[neighbour]) + local]];
       const double part = pieces.part[n];
       for (int i = 0; i < 9; ++i) l[i] += part * motion.gradient[i];
       for (int i = 0; i < 6; ++i) r[i] += part * motion.stress[i];
@@ -516,7 +543,7 @@ void SoilCells<T>::take_block(int body, const LawType& law, int owner, double dt
 template <class T>
 void SoilCells<T>::take(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt) {
   grid_.shares().at_once(threads_, [&](int block) {
-    for (int cell = begin_[block]; cell < begin_[block + 1]; ++cell) find_motion(table, nodes, dt, cell);
+    for (int group = begin_[block]; group < begin_[block + 1]; ++group) find_motion(table, nodes, group);
   });
   in_space_or_plane(geometry_, [&](auto kind) {
     grid_.grid().shares.at_once(threads_, [&](int owner) {

@@ -1,4 +1,4 @@
-// The sweeps of the implicit step, a cell's eight nodes in the lanes of a register.
+// The sweeps of the implicit step, eight cells at once.
 #include "mpm/kernel/soil_cells.hpp"
 
 #include <algorithm>
@@ -9,10 +9,9 @@ namespace {
 
 using mpm_kernel::ContactRow;
 using mpm_kernel::kCellNodes;
-using mpm_kernel::kLodeSteps;
 using mpm_kernel::SoilBlock;
-using mpm_kernel::SoilCell;
-using mpm_kernel::SoilLaw;
+using mpm_kernel::SoilFlow;
+using mpm_kernel::SoilGroup;
 using mpm_kernel::SoilMask;
 using mpm_kernel::SoilNode;
 using mpm_kernel::WallRow;
@@ -38,14 +37,14 @@ void store(T* to, Eight<T> v) {
   *reinterpret_cast<Eight<T>*>(to) = v;
 }
 
-/// Velocities and inverse masses of a cell's nodes, a node a lane.
+/// Velocities and inverse masses of eight nodes, a node a lane.
 template <class T>
 struct Corners {
   Eight<T> x, y, z, m;
 };
 
 template <class T>
-Corners<T> load(const SoilNode<T>* nodes, const int* n) {
+inline __attribute__((always_inline)) Corners<T> load(const SoilNode<T>* nodes, const int* n) {
   const auto pair = [&](int a, int b) {
     const Four<T> low = *reinterpret_cast<const Four<T>*>(nodes[n[a]].v);
     const Four<T> high = *reinterpret_cast<const Four<T>*>(nodes[n[b]].v);
@@ -63,7 +62,7 @@ Corners<T> load(const SoilNode<T>* nodes, const int* n) {
 }
 
 template <class T>
-void store(SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
+inline __attribute__((always_inline)) void store(SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
   const Eight<T> xy = __builtin_shufflevector(c.x, c.y, 0, 8, 1, 9, 4, 12, 5, 13);
   const Eight<T> up_xy = __builtin_shufflevector(c.x, c.y, 2, 10, 3, 11, 6, 14, 7, 15);
   const Eight<T> zm = __builtin_shufflevector(c.z, c.m, 0, 8, 1, 9, 4, 12, 5, 13);
@@ -78,137 +77,180 @@ void store(SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
   }
 }
 
-/// Lane k of the result: the sum of the lanes of v[k].
 template <class T>
-Eight<T> sums(const Eight<T>* v) {
-  const auto two = [](Eight<T> a, Eight<T> b) {
-    return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
-           __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-  };
-  const auto four = [](Eight<T> ab, Eight<T> cd) {
-    return __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13) +
-           __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
-  };
-  const Eight<T> e = four(two(v[0], v[1]), two(v[2], v[3])), f = four(two(v[4], v[5]), two(v[6], v[7]));
-  return __builtin_shufflevector(e, f, 0, 1, 2, 3, 8, 9, 10, 11) +
-         __builtin_shufflevector(e, f, 4, 5, 6, 7, 12, 13, 14, 15);
+using Truth = decltype(Eight<T>{} < Eight<T>{});
+
+template <class T>
+Eight<T> all(double value) {
+  return Eight<T>{} + static_cast<T>(value);
+}
+template <class T>
+Eight<T> largest(Eight<T> a, Eight<T> b) {
+  return a > b ? a : b;
+}
+template <class T>
+Eight<T> least_of(Eight<T> a, Eight<T> b) {
+  return a < b ? a : b;
+}
+template <class T>
+Eight<T> root(Eight<T> a) {
+  alignas(64) T v[8];
+  store(v, a);
+  for (int l = 0; l < 8; ++l) v[l] = std::sqrt(v[l]);
+  return load(v);
 }
 
-/// Rate of the cell's strain, mapped, from the velocities of its nodes; two numbers more are 0.
+/// Nodes 0 to 7 of the cells of a group, a cell a lane.
 template <class T>
-void rate(const SoilCell<T>& cell, const Corners<T>& c, T (&e)[8]) {
-  const Eight<T> bx = load(cell.gradient[0]), by = load(cell.gradient[1]), bz = load(cell.gradient[2]), none = bx - bx;
-  const Eight<T> parts[8] = {bx * c.x,            by * c.y,            bz * c.z, by * c.z + bz * c.y,
-                             bx * c.z + bz * c.x, bx * c.y + by * c.x, none,     none};
-  const Eight<T> s = sums<T>(parts);
-  const T xx = s[0], yy = s[1], zz = s[2];
-  e[0] = T(kRoot3) * (xx + yy + zz);
-  e[1] = T(kRoot2) * (xx - yy);
-  e[2] = T(kRoot6) * (T(2) * zz - xx - yy);
-  e[3] = T(kRoot2) * s[3];
-  e[4] = T(kRoot2) * s[4];
-  e[5] = T(kRoot2) * s[5];
-  e[6] = e[7] = T(0);
-}
+struct GroupNodes {
+  Corners<T> of[kCellNodes];
 
-/// What a change `d` of the cell's stress does to the velocities of its nodes.
-template <class T>
-void spread(const SoilCell<T>& cell, const SoilMask<T>* masks, const T* d, Corners<T>& c) {
-  const Eight<T> bx = load(cell.gradient[0]), by = load(cell.gradient[1]), bz = load(cell.gradient[2]);
-  const T p = T(kRoot3) * d[0], q = T(kRoot6) * d[2], f = cell.push;
-  const T sx = f * (p + T(kRoot2) * d[1] - q), sy = f * (p - T(kRoot2) * d[1] - q), sz = f * (p + T(2) * q);
-  const T yz = f * T(kRoot2) * d[3], xz = f * T(kRoot2) * d[4], xy = f * T(kRoot2) * d[5];
-  Eight<T> x = c.m * (bx * sx + by * xy + bz * xz), y = c.m * (bx * xy + by * sy + bz * yz);
-  Eight<T> z = c.m * (bx * xz + by * yz + bz * sz);
-  if (cell.mask >= 0) {
-    const SoilMask<T>& mask = masks[cell.mask];
-    x *= load(mask.free[0]);
-    y *= load(mask.free[1]);
-    z *= load(mask.free[2]);
+  GroupNodes(const SoilGroup<T>& group, const SoilNode<T>* nodes) {
+    for (int e = 0; e < kCellNodes; ++e) of[e] = load(nodes, group.node[e]);
   }
-  c.x += x;
-  c.y += y;
-  c.z += z;
+};
+
+/// Rates of strain, mapped, from the velocities of the nodes.
+template <class T>
+inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T>& nodes, Eight<T> (&e)[6]) {
+  Eight<T> xx{}, yy{}, zz{}, yz{}, xz{}, xy{};
+  for (int n = 0; n < kCellNodes; ++n) {
+    const Eight<T> x = load(group.gradient[0][n]), y = load(group.gradient[1][n]), z = load(group.gradient[2][n]);
+    const Corners<T>& v = nodes.of[n];
+    xx += x * v.x;
+    yy += y * v.y;
+    zz += z * v.z;
+    yz += y * v.z + z * v.y;
+    xz += x * v.z + z * v.x;
+    xy += x * v.y + y * v.x;
+  }
+  e[0] = static_cast<T>(kRoot3) * (xx + yy + zz);
+  e[1] = static_cast<T>(kRoot2) * (xx - yy);
+  e[2] = static_cast<T>(kRoot6) * (zz + zz - xx - yy);
+  e[3] = static_cast<T>(kRoot2) * yz;
+  e[4] = static_cast<T>(kRoot2) * xz;
+  e[5] = static_cast<T>(kRoot2) * xy;
+}
+
+/// What changes `d` of the stresses do to the velocities of the nodes.
+template <class T>
+inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks, const Eight<T> (&d)[6], GroupNodes<T>& nodes) {
+  const Eight<T> f = load(group.push);
+  const Eight<T> p = static_cast<T>(kRoot3) * d[0], q = static_cast<T>(kRoot6) * d[2], h = static_cast<T>(kRoot2) * d[1];
+  const Eight<T> sx = f * (p + h - q), sy = f * (p - h - q), sz = f * (p + q + q);
+  const Eight<T> g = f * static_cast<T>(kRoot2), yz = g * d[3], xz = g * d[4], xy = g * d[5];
+  for (int n = 0; n < kCellNodes; ++n) {
+    const Eight<T> bx = load(group.gradient[0][n]), by = load(group.gradient[1][n]), bz = load(group.gradient[2][n]);
+    Corners<T>& v = nodes.of[n];
+    Eight<T> x = v.m * (bx * sx + by * xy + bz * xz), y = v.m * (bx * xy + by * sy + bz * yz);
+    Eight<T> z = v.m * (bx * xz + by * yz + bz * sz);
+    if (group.mask >= 0) {
+      const SoilMask<T>& mask = masks[group.mask];
+      x *= load(mask.free[0][n]);
+      y *= load(mask.free[1][n]);
+      z *= load(mask.free[2][n]);
+    }
+    v.x += x;
+    v.y += y;
+    v.z += z;
+  }
 }
 
 template <class T>
 constexpr T kStill = T(1e-12);  ///< a rate below which there is no direction [1/s]
 
-/// Place in the tables for a stress of the direction -b.
+/// Largest and smallest principal deviators over sqrt(J2): their difference and sum, for a deviator of the direction -b,
+/// compression positive, of the length bt.
 template <class T>
-struct LodePlace {
-  int k;
-  T part;
-  T at(const T* table) const { return table[k] + part * (table[k + 1] - table[k]); }
+struct Extremes {
+  Eight<T> difference, sum;
+
+  Extremes(const Eight<T> (&b)[6], Eight<T> bt) {
+    const Eight<T> over = static_cast<T>(1) / (largest<T>(bt, all<T>(kStill<T>)) * static_cast<T>(kRoot2));
+    const Eight<T> d = static_cast<T>(kRoot2) * b[1] * over, q = static_cast<T>(kRoot6) * b[2] * over;
+    const Eight<T> xx = d - q, yy = -d - q, zz = q + q, g = static_cast<T>(kRoot2) * over;
+    const Eight<T> yz = g * b[3], xz = g * b[4], xy = g * b[5];  // tension positive, as b itself
+    const Eight<T> j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    // cos(3 a) of the Lode angle a in [0, 60 degrees]; cos(a) = cos(2/3 acos(t)) with t = cos(3 a / 2), a polynomial to 2e-7.
+    const Eight<T> cosine = least_of<T>(all<T>(1), largest<T>(all<T>(-1), static_cast<T>(2.598076211353316) * j3));
+    const Eight<T> t = root<T>(static_cast<T>(0.5) * (static_cast<T>(1) + cosine));
+    Eight<T> c = all<T>(-0.002103491008);
+    for (const double next : {0.01050175359, -0.02639974934, 0.05147476334, -0.1108054709, 0.5773319021, 0.500000186}) {
+      c = c * t + static_cast<T>(next);
+    }
+    const Eight<T> s = root<T>(largest<T>(Eight<T>{}, static_cast<T>(1) - c * c));
+    constexpr double kScale = 1.1547005383792515;
+    difference = static_cast<T>(kScale) * (static_cast<T>(1.5) * c + static_cast<T>(0.8660254037844386) * s);
+    sum = static_cast<T>(kScale) * (static_cast<T>(0.5) * c - static_cast<T>(0.8660254037844386) * s);
+  }
+  /// 1 / k; where `lode` is 0, 1.
+  Eight<T> per_shear(Eight<T> sine, Eight<T> lode) const {
+    const Eight<T> k = static_cast<T>(0.5) * (difference + sum * sine);
+    return static_cast<T>(1) / (static_cast<T>(1) + lode * (k - static_cast<T>(1)));
+  }
 };
 
+/// sqrt(2/3) dilates dilation / k.
 template <class T>
-LodePlace<T> lode_place(const T* b, T bt) {
-  const T r2 = T(kRoot2), r6 = T(kRoot6);
-  const T xx = -(r2 * b[1] - r6 * b[2]), yy = r2 * b[1] + r6 * b[2], zz = -T(2) * r6 * b[2];
-  const T yz = -r2 * b[3], xz = -r2 * b[4], xy = -r2 * b[5];
-  const T j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-  const T q = bt * r2;
-  // 3 sqrt(3) / 2 J3 / J2^(3/2), with r compression positive: 1 in triaxial compression.
-  const T sine = std::min(T(1), std::max(T(-1), T(2.598076211353316) * j3 / (q * q * q)));
-  const T place = (sine + T(1)) * T(kLodeSteps / 2);
-  const int k = static_cast<int>(place);
-  return {k, place - static_cast<T>(k)};
+Eight<T> flow_dilation(const SoilGroup<T>& group, const Extremes<T>& extremes) {
+  const Eight<T> dilation = load(group.dilation);
+  return static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, load(group.lode));
 }
 
+/// The stress r for which e = w r + b, with the law.
 template <class T>
-void solve(const SoilLaw<T>& law, T own_n, T own_t, T left, T dilates, const T* b, T* r) {
-  T bt = T(0);
-  for (int k = 1; k < 6; ++k) bt += b[k] * b[k];
-  bt = std::sqrt(bt);
-  const LodePlace<T> place = bt > kStill<T> ? lode_place(b, bt) : LodePlace<T>{0, T(0)};
-  const auto between = [&](const T* peak, const T* residual) {
-    const T last = place.at(residual);
-    return last + left * (place.at(peak) - last);
-  };
-  const T strength = between(law.strength, law.residual_strength), slope = between(law.slope, law.residual_slope);
-  const T theta = dilates * place.at(law.dilation);
-  T rn = -b[0] / own_n;
-  const T least = std::max(law.least, slope > T(0) ? -strength / slope : law.least);
-  T s = T(1) / own_t;  // r_T = -s b_T
-  const T kept = strength + slope * rn;  // what it bears if its volume stays
-  if (bt > own_t * kept) {
-    const T gamma = slope * theta / own_n, base = kept + gamma * bt;
-    if (base <= T(0)) {
-      s = T(0);
-      rn = least;
-    } else {
-      const T alpha = std::max(T(0), (bt - kept * own_t) / base);
-      s = T(1) / (own_t + alpha);
-      rn += theta * alpha * s * bt / own_n;
-    }
-  }
-  if (rn < least) {
-    rn = least;
-    const T most = std::max(T(0), strength + slope * least);
-    s = bt > own_t * most ? most / std::max(bt, kStill<T>) : T(1) / own_t;
-  }
+inline __attribute__((always_inline)) void solve(const SoilGroup<T>& group, Eight<T> own_n, Eight<T> own_t, const Eight<T> (&b)[6], bool flows, Eight<T> (&r)[6]) {
+  Eight<T> bt = b[1] * b[1];
+  for (int k = 2; k < 6; ++k) bt += b[k] * b[k];
+  bt = root<T>(bt);
+  const Extremes<T> extremes(b, bt);
+  const Eight<T> sine = load(group.sine), factor = static_cast<T>(1.4142135623730951) * extremes.per_shear(sine, load(group.lode));
+  const Eight<T> strength = factor * load(group.cohesion), slope = static_cast<T>(kRoot3) * factor * sine;
+  const Eight<T> theta = flows ? flow_dilation(group, extremes) : Eight<T>{};
+  const Eight<T> none{}, over_t = static_cast<T>(1) / own_t;
+  const Eight<T> still = all<T>(kStill<T>);
+  const Eight<T> apex = slope > none ? -strength / largest<T>(slope, still) : load(group.least);
+  const Eight<T> least = largest<T>(apex, load(group.least));
+  const Eight<T> alone = -b[0] / own_n;             // r_N if the volume stays
+  const Eight<T> kept = strength + slope * alone;   // and what it bears then
+  const Eight<T> base = kept + slope * theta * bt / own_n;
+  const Eight<T> alpha = largest<T>(none, (bt - kept * own_t) / largest<T>(base, still));
+  const Truth<T> slides = bt > own_t * kept, parts = slides && (base <= none);
+  const Eight<T> part = static_cast<T>(1) / (own_t + alpha);
+  Eight<T> s = slides ? part : over_t;
+  Eight<T> rn = slides ? alone + theta * alpha * part * bt / own_n : alone;
+  const Truth<T> limited = parts || (rn < least);
+  const Eight<T> most = largest<T>(none, strength + slope * least);
+  const Eight<T> short_s = least_of<T>(over_t, most / largest<T>(bt, still));
+  rn = limited ? least : rn;
+  s = limited ? short_s : s;
   r[0] = rn;
   for (int k = 1; k < 6; ++k) r[k] = -s * b[k];
 }
 
 template <class T>
-double relax(SoilCell<T>& cell, const SoilLaw<T>* laws, const SoilMask<T>* masks, SoilNode<T>* nodes) {
-  Corners<T> corners = load(nodes, cell.node);
-  T b[8], r[6], d[8];
-  rate(cell, corners, b);
-  b[0] += cell.shift[0] - cell.weight_n * cell.stress[0];
-  for (int k = 1; k < 6; ++k) b[k] += cell.shift[k] - cell.weight_t * cell.stress[k];
-  solve(laws[cell.law], cell.own_n, cell.own_t, cell.left, cell.dilates, b, r);
+void project(SoilGroup<T>& group) {
+  Eight<T> b[6], r[6];
+  for (int k = 0; k < 6; ++k) b[k] = -load(group.stress[k]);
+  solve(group, all<T>(1), all<T>(1), b, false, r);
+  for (int k = 0; k < 6; ++k) store(group.stress[k], r[k]);
+}
+
+template <class T>
+inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const SoilMask<T>* masks, SoilNode<T>* nodes) {
+  GroupNodes<T> corners(group, nodes);
+  Eight<T> b[6], r[6];
+  rate(group, corners, b);
+  const Eight<T> weight_n = load(group.weight_n), weight_t = load(group.weight_t);
+  for (int k = 0; k < 6; ++k) b[k] += load(group.shift[k]) - (k == 0 ? weight_n : weight_t) * load(group.stress[k]);
+  solve(group, weight_n + load(group.compliance_n), weight_t + load(group.compliance_t), b, true, r);
   for (int k = 0; k < 6; ++k) {
-    d[k] = r[k] - cell.stress[k];
-    cell.stress[k] = r[k];
+    const Eight<T> found = r[k];
+    r[k] -= load(group.stress[k]);
+    store(group.stress[k], found);
   }
-  T shear = T(0);
-  for (int k = 1; k < 6; ++k) shear += d[k] * d[k];
-  spread(cell, masks, d, corners);
-  store(nodes, cell.node, corners);
-  return static_cast<double>(cell.push * (cell.own_n * d[0] * d[0] + cell.own_t * shear));
+  spread(group, masks, r, corners);
+  for (int e = 0; e < kCellNodes; ++e) store(nodes, group.node[e], corners.of[e]);
 }
 
 /// The impulse of Coulomb's law where an impulse l makes the velocity u + own l: no approach, no pull.
@@ -264,23 +306,21 @@ void relax(WallRow<T>& row, SoilNode<T>* nodes) {
 
 template <class T>
 void push(const SoilBlock<T>& block, SoilNode<T>* nodes) {
-  for (int i = 0; i < block.cell_count; ++i) {
-    const SoilCell<T>& cell = block.cells[i];
-    Corners<T> corners = load(nodes, cell.node);
-    spread(cell, block.masks, cell.stress, corners);
-    store(nodes, cell.node, corners);
+  for (int i = 0; i < block.group_count; ++i) {
+    const SoilGroup<T>& group = block.groups[i];
+    GroupNodes<T> corners(group, nodes);
+    Eight<T> r[6];
+    for (int k = 0; k < 6; ++k) r[k] = load(group.stress[k]);
+    spread(group, block.masks, r, corners);
+    for (int e = 0; e < kCellNodes; ++e) store(nodes, group.node[e], corners.of[e]);
   }
 }
 
 template <class T>
-double sweep(const SoilBlock<T>& block, const SoilLaw<T>* laws, SoilNode<T>* nodes, bool backwards) {
-  double change = 0.0;
-  if (backwards) {
-    for (int i = block.cell_count; i-- > 0;) change += relax(block.cells[i], laws, block.masks, nodes);
-  } else {
-    for (int i = 0; i < block.cell_count; ++i) change += relax(block.cells[i], laws, block.masks, nodes);
+void sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, bool backwards) {
+  for (int i = 0; i < block.group_count; ++i) {
+    relax(block.groups[backwards ? block.group_count - 1 - i : i], block.masks, nodes);
   }
-  return change;
 }
 
 template <class T>
@@ -293,25 +333,37 @@ void meet(const SoilBlock<T>& block, SoilNode<T>* nodes) {
 }
 
 template <class T>
-void flow(const SoilCell<T>& cell, const SoilLaw<T>& law, const SoilNode<T>* nodes, T dt, T* e, T* shear, T* opening) {
-  T rates[8], plastic[6];
-  rate(cell, load(nodes, cell.node), rates);
-  std::copy(rates, rates + 6, e);
-  T sum = T(0);
+void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out) {
+  const GroupNodes<T> corners(group, nodes);
+  Eight<T> e[6], plastic[6], shear{};
+  rate(group, corners, e);
+  const Eight<T> compliance_n = load(group.compliance_n), compliance_t = load(group.compliance_t);
   for (int k = 0; k < 6; ++k) {
-    plastic[k] = e[k] + cell.shift[k] + (k == 0 ? law.compliance_n : law.compliance_t) / dt * cell.stress[k];
-    if (k > 0) sum += plastic[k] * plastic[k];
+    store(out.rate[k], e[k]);
+    plastic[k] = e[k] + load(group.shift[k]) + (k == 0 ? compliance_n : compliance_t) * load(group.stress[k]);
+    if (k > 0) shear += plastic[k] * plastic[k];
   }
-  *shear = std::sqrt(sum);
-  const T dilation = *shear > kStill<T> ? cell.dilates * lode_place(plastic, *shear).at(law.dilation) : T(0);
-  *opening = plastic[0] - cell.closing - dilation * *shear;
+  shear = root<T>(shear);
+  store(out.shear, shear);
+  store(out.opening, plastic[0] - load(group.closing) - flow_dilation(group, Extremes<T>(plastic, shear)) * shear);
+  for (int a = 0; a < 3; ++a) {
+    for (int k = 0; k < 3; ++k) {
+      Eight<T> sum{};
+      for (int n = 0; n < kCellNodes; ++n) {
+        const Corners<T>& v = corners.of[n];
+        sum += load(group.gradient[k][n]) * (a == 0 ? v.x : a == 1 ? v.y : v.z);
+      }
+      store(out.gradient[3 * a + k], sum);
+    }
+  }
 }
 
 }  // namespace
 
 const mpm_kernel::SweepFamily& soil_sweeps() {
-  static constexpr mpm_kernel::SweepFamily kFamily{{&push<double>, &sweep<double>, &meet<double>, &flow<double>, &solve<double>},
-                                                   {&push<float>, &sweep<float>, &meet<float>, &flow<float>, &solve<float>}};
+  static constexpr mpm_kernel::SweepFamily kFamily{
+      {&project<double>, &push<double>, &sweep<double>, &meet<double>, &flow<double>},
+      {&project<float>, &push<float>, &sweep<float>, &meet<float>, &flow<float>}};
   return kFamily;
 }
 

@@ -64,49 +64,37 @@ class SoilCells {
   double least_density() const { return least_density_; }
 
  private:
-  /// What the particles of a body give to a cell, weighted with their volumes.
-  struct Sums {
-    double volume;
-    double place[6];  ///< x, y, z, xy, xz, yz, in cells from the lower corner
-    double stress[6];  ///< r
-    double opening;
-    double left, dilates;
-  };
-  /// What a cell gives to particles.
-  struct Motion {
-    double gradient[9];     ///< of velocity, row by row [1/s]
-    double stress[6];       ///< r [Pa]
-    double opening, shear;  ///< rates of opening and of plastic shear [1/s]
-    double power;           ///< of the stress on the strain, over volume [W/m^3]
-  };
+  using Sums = mpm_kernel::SoilSums<T>;
+  using Motion = mpm_kernel::SoilMotion<T>;
   /// A component of a node's velocity that a wall holds, in a cell.
   struct HeldEntry {
-    int group, lane;
+    int group, lane, corner;
     std::uint8_t wall, axis;
     double gradient[3];  ///< of the node's shape function [1/m]
   };
-  template <class Geometry>
-  void gather_block(int body, int owner);
+  /// The particles of a body, as they lie now.
+  mpm_kernel::SoilParticles<T> view_of(int body) const;
+  /// pass(first, last, corner, places) for the particles of a body in an owner's block.
+  template <class Pass>
+  void each_owner(int body, int owner, Pass&& pass);
   void make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block);
-  void make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, const std::vector<Node>& nodes, double dt,
-                 int group, int lane, mpm_kernel::SoilMask<T>& mask);
+  void make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt, int group, int lane,
+                 mpm_kernel::SoilPlaces<T>& places, mpm_kernel::SoilMask<T>& mask);
   void find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, int group);
-  template <class Geometry, class LawType>
-  void take_block(int body, const LawType& law, int owner, double dt);
-  /// Where a body's sums in a block begin, or -1.
+  /// The place of a body's first cell in a block, or -1.
   int& slot(int body, int block) { return slots_[static_cast<std::size_t>(body) * blocks_ + block]; }
 
   std::vector<SoilBody> bodies_;
+  std::vector<mpm_kernel::SoilParticles<T>> views_;  ///< in this step
   const SoilGrid& grid_;
   GeometryKind geometry_;
   int threads_;
   int blocks_ = 0;
   std::vector<int> slots_;
-  std::vector<Sums> sums_;
-  std::vector<int> lane_of_;  ///< of each of the sums with soil, 8 * group + lane
+  std::vector<Sums> sums_;      ///< of each place
+  std::vector<Motion> motion_;  ///< of each place
   std::vector<int> begin_;    ///< of each block, its first group
   std::vector<Group> groups_;
-  std::vector<Motion> motion_;  ///< of each lane
   std::vector<std::vector<HeldEntry>> held_;                 ///< of each block
   std::vector<std::vector<mpm_kernel::SoilMask<T>>> masks_;  ///< of each block
   double least_density_ = 0.0;

@@ -22,13 +22,13 @@ struct ImplicitSoil {
   /// @throws MaterialError for a material that refused_implicit() names
   explicit ImplicitSoil(const MaterialDefinition& material);
 
-  double density;  ///< [kg/m^3]
+  double density;      ///< [kg/m^3]
+  double bulk, shear;  ///< moduli [Pa]
   /// sin(phi) and c cos(phi) [Pa]; of a round cone eta and xi c, which fall in the same way.
   Fall sine, cohesion;
   double dilation;               ///< sin(psi), or eta_bar
   bool follows_lode;             ///< false for a round cone
   double least;                  ///< r_N at which it parts: minus sqrt(3) times the mean tension that it bears [Pa]
-  double compliance_n, compliance_t;  ///< elastic, of e_N / r_N and e_T / r_T [1/Pa]
   DilationEnd dilation_end;
   StrengthFall fall;
 };

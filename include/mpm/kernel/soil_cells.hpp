@@ -15,7 +15,8 @@
 //   theta = dilates sqrt(2/3) dilation / k(dilation),
 //
 // with the k of Mohr-Coulomb's surface at the Lode angle of r_T (material/drucker_prager.hpp), whose direction is that of -b_T
-// whatever its size; of a round cone k is 1. With b = e - W r + shift, what the cell's rate would be without its stress, and
+// whatever its size; of a round cone k is 1. A sweep takes the Lode angle that the one before has found, so that what follows from
+// it is not waited for. With b = e - W r + shift, what the cell's rate would be without its stress, and
 // the diagonal numbers w that stand for its answer to it: stick r = -b / w, or slide, or part.
 // Source: G. Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the continuum simulation of
 // granular materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at no pressure, a limit of
@@ -48,8 +49,19 @@ struct alignas(64) SoilGroup {
   T dilation[kGroupCells], dilates[kGroupCells];
   T least[kGroupCells];  ///< r_N at which the soil parts, if not at no strength [Pa]
   T lode[kGroupCells];   ///< 1 where k follows the Lode angle, 0 for a round cone
+  /// Of |r_T| <= strength + slope r_N and of the flow, at the Lode angle that the last sweep has found.
+  T strength[kGroupCells], slope[kGroupCells], theta[kGroupCells];
   int node[kCellNodes][kGroupCells];
+  int place[kGroupCells];  ///< of the cell among all places of cells; -1 without one
   int mask;  ///< number of its SoilMask; -1: no node of it is held
+};
+
+/// Where the soil of a group's cells lies: means over it of x, y, z, xy, xz and yz, in cells from the cell's lower corner,
+/// and the number of edges in a metre along each axis; along y in a plane 0.
+template <class T>
+struct SoilPlaces {
+  T mean[6][kGroupCells];
+  T inverse_cell[3];
 };
 
 /// Where walls hold nodes of a group: 0 for the components of velocity that they hold, else 1.
@@ -100,8 +112,62 @@ struct SoilBlock {
   int group_count, row_count, wall_count;
 };
 
+/// What particles give to a cell: sums over their pieces in it, weighted with volumes.
+template <class T>
+struct alignas(64) SoilSums {
+  T volume;   ///< [m^3]
+  T place[6];  ///< x, y, z, xy, xz, yz, in cells from the lower corner
+  T stress[6];  ///< r
+  T opening, left, dilates;
+};
+
+/// What particles take from a cell.
+template <class T>
+struct alignas(64) SoilMotion {
+  T gradient[9];     ///< of velocity, row by row [1/s]
+  T stress[6];       ///< r [Pa]
+  T opening, shear;  ///< as in SoilFlow [1/s]
+  T power;           ///< of the stress on the strain, over volume [W/m^3]
+  T unused[6];
+};
+
+/// Cells around a block, as BlockTable numbers its neighbours: where those of each block begin, by the node at their lower
+/// corner, or null where none may be.
+template <class T>
+struct SoilPlacesOf {
+  SoilSums<T>* sums[27];
+  const SoilMotion<T>* motion[27];
+};
+
+/// The particles of a body of soil.
+template <class T>
+struct SoilParticles {
+  const double* x[3];
+  T* f[9];
+  T* tau[6];
+  T *strain, *opening, *work;  ///< history of the laws of soil
+  const T* masses;             ///< null where all have `mass`
+  double mass;                 ///< [kg]
+  double half[3];              ///< half of a box along the grid's axes [cells]
+  double origin[3], inverse_cell[3];
+  double density;               ///< initial [kg/m^3]
+  double bulk, shear;           ///< [Pa]
+  double per_strain;            ///< of the fall of strength (StrengthFall)
+  double dilation_start, dilation_slope;  ///< DilationEnd
+};
+
+/// Passes over the particles [first, last) of a block whose first node has these numbers.
+template <class T>
+struct SoilPasses {
+  void (*gather)(const SoilParticles<T>&, int first, int last, const int* corner, const SoilPlacesOf<T>&);
+  void (*take)(const SoilParticles<T>&, int first, int last, const int* corner, const SoilPlacesOf<T>&, double dt);
+};
+
 template <class T>
 struct SweepTable {
+  /// Finds gradients and weights from the places of the soil, with `mask` where it is not null, and multiplies the weights
+  /// with `push`.
+  void (*prepare)(SoilGroup<T>&, const SoilPlaces<T>&, const SoilNode<T>* nodes, const SoilMask<T>* mask);
   /// Returns stresses to the surface of their soil, with the same direction of r_T.
   void (*project)(SoilGroup<T>&);
   /// Gives the nodes the momentum of the cells' stresses.
@@ -111,6 +177,7 @@ struct SweepTable {
   /// Solves the contacts of a block, walls first.
   void (*meet)(const SoilBlock<T>&, SoilNode<T>* nodes);
   void (*flow)(const SoilGroup<T>&, const SoilNode<T>* nodes, SoilFlow<T>&);
+  SoilPasses<T> passes[2];  ///< in a plane and in space
 };
 
 /// One instruction set.

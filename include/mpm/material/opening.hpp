@@ -29,9 +29,11 @@ class DilationEnd {
   T left(T j) const {
     return max(min(T(start_) - T(slope_) * j, T(1)), T(0));
   }
+  double start() const { return start_; }
+  double slope() const { return slope_; }
 
  private:
-  double start_, slope_;
+  double start_, slope_;  ///< of the straight line
 };
 
 /// Principal values of a tensor [Pa].

@@ -35,6 +35,7 @@ class StrengthFall {
   T left(T strain) const {
     return max(T(1) - T(per_strain_) * strain, T(0));
   }
+  double per_strain() const { return per_strain_; }
 
  private:
   double per_strain_;

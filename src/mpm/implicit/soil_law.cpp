@@ -52,8 +52,8 @@ ImplicitSoil::ImplicitSoil(const MaterialDefinition& material)
       fall(of_soil(material, [](const auto& d) { return d.softening; })) {
   of_soil(material, [&](const auto& d) {
     least = d.tension_cutoff < 0.0 ? -kNoLimit : -std::sqrt(3.0) * d.tension_cutoff;
-    compliance_n = 1.0 / (3.0 * d.elasticity.bulk());
-    compliance_t = 1.0 / (2.0 * d.elasticity.shear());
+    bulk = d.elasticity.bulk();
+    shear = d.elasticity.shear();
     return 0;
   });
   const auto* round = std::get_if<DruckerPragerDefinition>(&material.law);

@@ -1,18 +1,25 @@
 // The sweeps of the implicit step, eight cells at once.
-#include "mpm/kernel/soil_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/kernel/soil_cells.hpp"
+
 namespace mpm {
+
+// soil_particles.cpp
+template <class T>
+mpm_kernel::SoilPasses<T> soil_passes(int axes);
+
 namespace {
 
 using mpm_kernel::ContactRow;
 using mpm_kernel::kCellNodes;
+using mpm_kernel::kGroupCells;
 using mpm_kernel::SoilBlock;
 using mpm_kernel::SoilFlow;
 using mpm_kernel::SoilGroup;
 using mpm_kernel::SoilMask;
+using mpm_kernel::SoilPlaces;
 using mpm_kernel::SoilNode;
 using mpm_kernel::WallRow;
 
@@ -156,6 +163,86 @@ inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, con
   }
 }
 
+/// How a cell's rate of strain answers to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers that
+/// a velocity along the axis gives to e. What stands for it, a number for e_N and one for e_T, must not be less in any
+/// direction: sweeps would make energy where a node is light.
+template <class T>
+class CellAnswer {
+ public:
+  void add(const Eight<T> (&w)[6], Eight<T> im) {
+    int at = 0;
+    for (int i = 0; i < 6; ++i) {
+      const Eight<T> scaled = im * w[i];
+      for (int j = 0; j <= i; ++j) w_[at++] += scaled * w[j];
+    }
+  }
+  /// By the coupling more than that of e_N alone.
+  Eight<T> normal() const { return w_[0] + coupling(); }
+  /// Gershgorin's bound of the largest eigenvalue of the part for e_T, and the coupling.
+  Eight<T> shear() const {
+    Eight<T> most{};
+    for (int i = 1; i < 6; ++i) {
+      Eight<T> sum{};
+      for (int j = 1; j < 6; ++j) {
+        const Eight<T> one = entry(i, j);
+        sum += largest<T>(one, -one);
+      }
+      most = largest<T>(most, sum);
+    }
+    return most + coupling();
+  }
+
+ private:
+  Eight<T> entry(int i, int j) const { return i < j ? w_[j * (j + 1) / 2 + i] : w_[i * (i + 1) / 2 + j]; }
+  Eight<T> coupling() const {
+    Eight<T> sum{};
+    for (int i = 1; i < 6; ++i) sum += entry(i, 0) * entry(i, 0);
+    return root<T>(sum);
+  }
+
+  Eight<T> w_[21] = {};
+};
+
+template <class T>
+void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>* nodes, const SoilMask<T>* mask) {
+  const Eight<T> x = load(places.mean[0]), y = load(places.mean[1]), z = load(places.mean[2]);
+  const Eight<T> xy = load(places.mean[3]), xz = load(places.mean[4]), yz = load(places.mean[5]), none{};
+  const bool plane = places.inverse_cell[1] == T(0);
+  const T r2 = static_cast<T>(kRoot2), r3 = static_cast<T>(kRoot3), r6 = static_cast<T>(kRoot6);
+  CellAnswer<T> answer;
+  for (int e = 0; e < kCellNodes; ++e) {
+    if (plane && e >= kCellNodes / 2) {
+      for (int k = 0; k < 3; ++k) store(group.gradient[k][e], none);
+      continue;
+    }
+    // Hat functions along the axes: a + s x, a = 1 and s = -1 at the lower node, 0 and 1 at the upper one; 1 along y in a
+    // plane.
+    const bool up[3] = {(e & 1) != 0, !plane && (e & 2) != 0, (e >> (plane ? 1 : 2) & 1) != 0};
+    T a[3], s[3];
+    for (int k = 0; k < 3; ++k) {
+      s[k] = up[k] ? T(1) : T(-1);
+      a[k] = up[k] ? T(0) : T(1);
+    }
+    if (plane) s[1] = T(0), a[1] = T(1);
+    const T* h = places.inverse_cell;
+    const Eight<T> gx = s[0] * h[0] * (a[1] * a[2] + (a[2] * s[1]) * y + (a[1] * s[2]) * z + (s[1] * s[2]) * yz);
+    const Eight<T> gy = s[1] * h[1] * (a[0] * a[2] + (a[2] * s[0]) * x + (a[0] * s[2]) * z + (s[0] * s[2]) * xz);
+    const Eight<T> gz = s[2] * h[2] * (a[0] * a[1] + (a[1] * s[0]) * x + (a[0] * s[1]) * y + (s[0] * s[1]) * xy);
+    store(group.gradient[0][e], gx);
+    store(group.gradient[1][e], gy);
+    store(group.gradient[2][e], gz);
+    Eight<T> im;
+    for (int l = 0; l < kGroupCells; ++l) im[l] = nodes[group.node[e][l]].inverse_mass;
+    const auto free = [&](int axis) { return mask != nullptr ? im * load(mask->free[axis][e]) : im; };
+    answer.add({r3 * gx, r2 * gx, -r6 * gx, none, r2 * gz, r2 * gy}, free(0));
+    answer.add({r3 * gy, -r2 * gy, -r6 * gy, r2 * gz, none, r2 * gx}, free(1));
+    answer.add({r3 * gz, none, (r6 + r6) * gz, r2 * gy, r2 * gx, none}, free(2));
+  }
+  const Eight<T> push = load(group.push);
+  store(group.weight_n, push * answer.normal());
+  store(group.weight_t, push * answer.shear());
+}
+
 template <class T>
 constexpr T kStill = T(1e-12);  ///< a rate below which there is no direction [1/s]
 
@@ -190,35 +277,42 @@ struct Extremes {
   }
 };
 
-/// sqrt(2/3) dilates dilation / k.
+/// Finds strength, slope and theta at the Lode angle of the direction -b.
 template <class T>
-Eight<T> flow_dilation(const SoilGroup<T>& group, const Extremes<T>& extremes) {
-  const Eight<T> dilation = load(group.dilation);
-  return static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, load(group.lode));
+inline __attribute__((always_inline)) void find_surface(SoilGroup<T>& group, const Eight<T> (&b)[6], Eight<T> bt) {
+  const Extremes<T> extremes(b, bt);
+  const Eight<T> lode = load(group.lode), sine = load(group.sine), dilation = load(group.dilation);
+  const Eight<T> factor = static_cast<T>(1.4142135623730951) * extremes.per_shear(sine, lode);
+  store(group.strength, factor * load(group.cohesion));
+  store(group.slope, static_cast<T>(kRoot3) * factor * sine);
+  store(group.theta, static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, lode));
 }
 
-/// The stress r for which e = w r + b, with the law.
 template <class T>
-inline __attribute__((always_inline)) void solve(const SoilGroup<T>& group, Eight<T> own_n, Eight<T> own_t, const Eight<T> (&b)[6], bool flows, Eight<T> (&r)[6]) {
-  Eight<T> bt = b[1] * b[1];
-  for (int k = 2; k < 6; ++k) bt += b[k] * b[k];
-  bt = root<T>(bt);
-  const Extremes<T> extremes(b, bt);
-  const Eight<T> sine = load(group.sine), factor = static_cast<T>(1.4142135623730951) * extremes.per_shear(sine, load(group.lode));
-  const Eight<T> strength = factor * load(group.cohesion), slope = static_cast<T>(kRoot3) * factor * sine;
-  const Eight<T> theta = flows ? flow_dilation(group, extremes) : Eight<T>{};
-  const Eight<T> none{}, over_t = static_cast<T>(1) / own_t;
-  const Eight<T> still = all<T>(kStill<T>);
+Eight<T> length(const Eight<T> (&b)[6]) {
+  Eight<T> sum = b[1] * b[1] + b[2] * b[2];
+  for (int k = 3; k < 6; ++k) sum += b[k] * b[k];
+  return root<T>(sum);
+}
+
+/// The stress r for which e = w r + b, with the law; `bt`: |b_T|.
+template <class T>
+inline __attribute__((always_inline)) void solve(const SoilGroup<T>& group, Eight<T> own_n, Eight<T> own_t, Eight<T> theta,
+                                                 const Eight<T> (&b)[6], Eight<T> bt, Eight<T> (&r)[6]) {
+  const Eight<T> strength = load(group.strength), slope = load(group.slope), none{}, still = all<T>(kStill<T>);
+  const Eight<T> over_n = static_cast<T>(1) / own_n, over_t = static_cast<T>(1) / own_t;
   const Eight<T> apex = slope > none ? -strength / largest<T>(slope, still) : load(group.least);
   const Eight<T> least = largest<T>(apex, load(group.least));
-  const Eight<T> alone = -b[0] / own_n;             // r_N if the volume stays
-  const Eight<T> kept = strength + slope * alone;   // and what it bears then
-  const Eight<T> base = kept + slope * theta * bt / own_n;
-  const Eight<T> alpha = largest<T>(none, (bt - kept * own_t) / largest<T>(base, still));
-  const Truth<T> slides = bt > own_t * kept, parts = slides && (base <= none);
-  const Eight<T> part = static_cast<T>(1) / (own_t + alpha);
+  const Eight<T> alone = -b[0] * over_n;           // r_N if the volume stays
+  const Eight<T> kept = strength + slope * alone;  // and what it bears then
+  const Eight<T> base = kept + slope * theta * over_n * bt;
+  const Eight<T> excess = bt - kept * own_t;
+  const Truth<T> slides = excess > none, parts = slides && (base <= none);
+  // s = 1 / (own_t + alpha) with alpha = excess / base.
+  const Eight<T> part = base / largest<T>(own_t * base + excess, still);
+  const Eight<T> slid = alone + theta * over_n * bt * (static_cast<T>(1) - own_t * part);
   Eight<T> s = slides ? part : over_t;
-  Eight<T> rn = slides ? alone + theta * alpha * part * bt / own_n : alone;
+  Eight<T> rn = slides ? slid : alone;
   const Truth<T> limited = parts || (rn < least);
   const Eight<T> most = largest<T>(none, strength + slope * least);
   const Eight<T> short_s = least_of<T>(over_t, most / largest<T>(bt, still));
@@ -232,7 +326,9 @@ template <class T>
 void project(SoilGroup<T>& group) {
   Eight<T> b[6], r[6];
   for (int k = 0; k < 6; ++k) b[k] = -load(group.stress[k]);
-  solve(group, all<T>(1), all<T>(1), b, false, r);
+  const Eight<T> bt = length<T>(b);
+  find_surface(group, b, bt);
+  solve(group, all<T>(1), all<T>(1), Eight<T>{}, b, bt, r);
   for (int k = 0; k < 6; ++k) store(group.stress[k], r[k]);
 }
 
@@ -243,7 +339,8 @@ inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const Soil
   rate(group, corners, b);
   const Eight<T> weight_n = load(group.weight_n), weight_t = load(group.weight_t);
   for (int k = 0; k < 6; ++k) b[k] += load(group.shift[k]) - (k == 0 ? weight_n : weight_t) * load(group.stress[k]);
-  solve(group, weight_n + load(group.compliance_n), weight_t + load(group.compliance_t), b, true, r);
+  const Eight<T> bt = length<T>(b);
+  solve(group, weight_n + load(group.compliance_n), weight_t + load(group.compliance_t), load(group.theta), b, bt, r);
   for (int k = 0; k < 6; ++k) {
     const Eight<T> found = r[k];
     r[k] -= load(group.stress[k]);
@@ -251,6 +348,7 @@ inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const Soil
   }
   spread(group, masks, r, corners);
   for (int e = 0; e < kCellNodes; ++e) store(nodes, group.node[e], corners.of[e]);
+  find_surface(group, b, bt);
 }
 
 /// The impulse of Coulomb's law where an impulse l makes the velocity u + own l: no approach, no pull.
@@ -345,7 +443,7 @@ void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out)
   }
   shear = root<T>(shear);
   store(out.shear, shear);
-  store(out.opening, plastic[0] - load(group.closing) - flow_dilation(group, Extremes<T>(plastic, shear)) * shear);
+  store(out.opening, plastic[0] - load(group.closing) - load(group.theta) * shear);
   for (int a = 0; a < 3; ++a) {
     for (int k = 0; k < 3; ++k) {
       Eight<T> sum{};
@@ -361,9 +459,11 @@ void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out)
 }  // namespace
 
 const mpm_kernel::SweepFamily& soil_sweeps() {
-  static constexpr mpm_kernel::SweepFamily kFamily{
-      {&project<double>, &push<double>, &sweep<double>, &meet<double>, &flow<double>},
-      {&project<float>, &push<float>, &sweep<float>, &meet<float>, &flow<float>}};
+  static const mpm_kernel::SweepFamily kFamily{
+      {&prepare<double>, &project<double>, &push<double>, &sweep<double>, &meet<double>, &flow<double>,
+       {soil_passes<double>(2), soil_passes<double>(3)}},
+      {&prepare<float>, &project<float>, &push<float>, &sweep<float>, &meet<float>, &flow<float>,
+       {soil_passes<float>(2), soil_passes<float>(3)}}};
   return kFamily;
 }
 

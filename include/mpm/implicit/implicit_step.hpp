@@ -30,6 +30,9 @@
 
 namespace mpm {
 
+inline constexpr const char* kImplicitName = "implicit";  ///< of the module
+inline constexpr double kImplicitTravel = 0.5;            ///< cells that a particle may move in a step
+
 struct ImplicitSettings {
   GeometryKind geometry = GeometryKind::solid;
   double across = 1.0;           ///< thickness of a plane [m]

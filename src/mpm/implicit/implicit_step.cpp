@@ -1,5 +1,7 @@
 #include "mpm/implicit/implicit_step.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +36,10 @@ class ImplicitStep final : public Stage, public ContactReporter {
     light_.name = "implicit/light_nodes";
   }
 
-  std::string name() const override { return "implicit"; }
+  std::string name() const override { return kImplicitName; }
+  std::string limit_text(const StepLimit& limit) const override {
+    return fmt::format("motion of '{}' ({:.4g} m/s, half a cell in a step)", sets_[limit.part].name, limit.speed);
+  }
   Ranks ranks(Hook) const override { return {Rank::implicit}; }
 
   void step_begun(StepContext&) override { tools_.put_out(sets_); }
@@ -43,7 +48,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     if (soil_grid_.rebuild()) cells_.rebuild();
     load();
     cells_.gather(table_, nodes_, context.dt);
-    begin_work();
+    tools_.clear();
+    walls_.clear();
     soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
     tools_.find(nodes_, context.start, context.dt);
     walls_.find(nodes_);
@@ -91,12 +97,6 @@ class ImplicitStep final : public Stage, public ContactReporter {
             tools_.count(block),
             walls_.count(block)};
   }
-  /// Before rows are known.
-  void begin_work() {
-    tools_.clear();
-    walls_.clear();
-  }
-
   /// Velocities with gravity and loads, and none where walls hold.
   void load() {
     const GridLayout& layout = grid_.layout;
@@ -118,13 +118,14 @@ class ImplicitStep final : public Stage, public ContactReporter {
     });
   }
 
-  /// As many as resolve the pressure that tools met in the last step.
+  /// As many as resolve the pressure that tools met in the last step, and one less than in that step at the least, so
+  /// that the force does not jump with their number.
   int sweeps_needed(double dt) const {
     if (settings_.sweeps) return *settings_.sweeps;
     const double cell = grid_.layout.smallest_cell();
     const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
     const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
-    return static_cast<int>(std::clamp<double>(needed, kLeastSweeps, kMostSweeps));
+    return std::max(sweeps_ - 1, static_cast<int>(std::clamp<double>(needed, kLeastSweeps, kMostSweeps)));
   }
 
   void solve(double dt) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kApart = 0.5;      ///< cells between points
 constexpr double kClearance = 0.6;  ///< cells from a convex edge
-constexpr double kPresent = 0.1;    ///< of the soil's density, from which on a point is in contact
+constexpr double kPresent = 0.2;    ///< of the soil's density, from which on a point is in contact
 
 double at_least_zero(double value) { return std::max(value, 0.0); }
 
@@ -24,9 +24,8 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
                       const ToolRowSettings& settings)
     : bodies_(std::move(bodies)), laws_(std::move(laws)), grid_(grid), settings_(settings) {
   const double cell = grid.grid().layout.smallest_cell();
-  const double apart = std::getenv("APART") ? std::atof(std::getenv("APART")) : kApart, clear = std::getenv("CLEAR") ? std::atof(std::getenv("CLEAR")) : kClearance;
   for (const RigidBody* body : bodies_) {
-    samples_.push_back(sample_surface(body->surface(), settings.geometry, {apart * cell, clear * cell}));
+    samples_.push_back(sample_surface(body->surface(), settings.geometry, {kApart * cell, kClearance * cell}));
     ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
     kept_.push_back({std::vector<double>(3 * samples_.back().size(), 0.0), std::vector<double>(samples_.back().size(), 0.0)});
   }
@@ -91,7 +90,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
     carrying += weights[e];
     mass += weights[e] / im;
   }
-  static const double present = std::getenv("PRES") ? std::atof(std::getenv("PRES")) : kPresent; if (!(mass > present * settings_.least_density * volume)) return false;
+  if (!(mass > kPresent * settings_.least_density * volume)) return false;
   double own[3] = {};
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     const double weight = weights[e] / carrying;

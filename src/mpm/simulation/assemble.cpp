@@ -16,6 +16,7 @@
 #include "mpm/mechanics/scalar_transfers.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/simulation/implicit_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/rigid_rules.hpp"
 #include "mpm/simulation/threads.hpp"
@@ -44,6 +45,9 @@ void check(const SimulationDefinition& d) {
   }
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
+  }
+  if (const auto fault = implicit_fault(d)) {
+    throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
@@ -95,6 +99,8 @@ void project(SimulationDefinition& definition) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
     if (body.free) project(*body.free, geometry);
+    // A solve has one velocity at a node.
+    if (definition.method.update == UpdateScheme::implicit) body.sides = Sides::one;
   }
 }
 
@@ -242,6 +248,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (const std::string slow = transport_warning(definition, materials); !slow.empty()) s.warnings.push_back(slow);
   s.threads = options.threads > 0 ? options.threads : useful_threads(count);
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
+  if (s.ranks && s.ranks->size() > 1 && definition.method.update == UpdateScheme::implicit) {
+    throw DefinitionError("method.update: implicit steps run in one process; leave the ranks out, or write usavg");
+  }
   project(s.definition);
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     const std::string fault = rigid_fault(definition, body);

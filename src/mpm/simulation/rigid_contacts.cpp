@@ -14,7 +14,18 @@ ContactLaw always(const FrictionLaw& friction) {
   return law;
 }
 
+bool same_function(const Function& a, const Function& b) {
+  if (a.is_constant() || b.is_constant()) return a.is_constant() == b.is_constant() && a(0.0) == b(0.0);
+  return a.text() == b.text();
+}
+
 }  // namespace
+
+bool same_law(const ContactLaw& a, const ContactLaw& b) {
+  if (a.kind != b.kind || a.static_friction.has_value() != b.static_friction.has_value()) return false;
+  if (a.static_friction && !same_function(*a.static_friction, *b.static_friction)) return false;
+  return same_function(a.friction, b.friction) && same_function(a.adhesion, b.adhesion);
+}
 
 ContactLaw rigid_contact_law(const SimulationDefinition& definition, const RigidBodyDefinition& body,
                              const std::string& deformable) {

@@ -14,6 +14,8 @@ namespace mpm {
 ContactLaw rigid_contact_law(const SimulationDefinition& definition, const RigidBodyDefinition& body,
                              const std::string& deformable);
 
+bool same_law(const ContactLaw& a, const ContactLaw& b);
+
 /// Of every rigid body against every set; the sets of a body together.
 std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definition,
                                            const std::vector<ParticleSet>& sets);

@@ -48,17 +48,6 @@ std::string law_fault(const SimulationDefinition& definition, const RigidBodyDef
   return "contact at nodes has no laws of pairs, friction at rest or adhesion; write contact: {method: points}";
 }
 
-bool same_function(const Function& a, const Function& b) {
-  if (a.is_constant() || b.is_constant()) return a.is_constant() == b.is_constant() && a(0.0) == b(0.0);
-  return a.text() == b.text();
-}
-
-bool same_law(const ContactLaw& a, const ContactLaw& b) {
-  if (a.kind != b.kind || a.static_friction.has_value() != b.static_friction.has_value()) return false;
-  if (a.static_friction && !same_function(*a.static_friction, *b.static_friction)) return false;
-  return same_function(a.friction, b.friction) && same_function(a.adhesion, b.adhesion);
-}
-
 // Contact with rigid particles has one law for each velocity field.
 std::string field_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
   if (!body.particles) return {};

@@ -7,7 +7,9 @@
 // method reference 11.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "mpm/implicit/implicit_step.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -35,7 +37,6 @@ class SceneStep final : public Module {
 };
 
 constexpr double kImplicitStep = 0.01;  ///< of a scene that names none [s]
-constexpr double kMostTravel = 0.5;     ///< cells that a particle may move in an implicit step
 
 /// Largest shear of the domains that particles awake have now, at most the limit.
 template <int Dim>
@@ -84,25 +85,32 @@ void add_step_limit(RunParts& parts) {
 // No wave limits an implicit step; what moves may cross a part of a cell in it.
 StepLimit Simulation::State::survey_motion() const {
   StepLimit limit;
-  limit.by = mechanics.get();
+  limit.by = modules.find(kImplicitName);
   double fastest = 0.0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet& set = sets[s];
     const int count = set.awake();
     for (int k = 0; k < layout().dim(); ++k) {
-      const double per_cell = layout().inverse_cell(k);
       double most = 0.0;
+      bool finite = true;
       set.v[k].visit([&](const auto& v) {
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most)
-        for (int p = 0; p < count; ++p) most = std::max(most, std::abs(static_cast<double>(v[p])));
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most) reduction(&& : finite)
+        for (int p = 0; p < count; ++p) {
+          const double speed = std::abs(static_cast<double>(v[p]));
+          most = std::max(most, speed);
+          finite = finite && std::isfinite(speed);
+        }
       });
-      if (!(per_cell * most > fastest)) continue;
-      fastest = per_cell * most;
+      if (!finite) most = std::numeric_limits<double>::quiet_NaN();
+      const double rate = layout().inverse_cell(k) * most;
+      if (rate <= fastest) continue;
+      fastest = rate;
       limit.part = static_cast<int>(s);
       limit.speed = most;
+      if (!finite) break;
     }
   }
-  if (fastest > 0.0) limit.dt = kMostTravel / fastest;
+  if (fastest != 0.0) limit.dt = kImplicitTravel / fastest;
   return limit;
 }
 

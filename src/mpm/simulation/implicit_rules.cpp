@@ -1,0 +1,134 @@
+#include "mpm/simulation/implicit_rules.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "mpm/implicit/soil_law.hpp"
+#include "rigid_contacts.hpp"
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+using Fault = std::optional<MethodFault>;
+
+Fault method_part(const SimulationDefinition& d) {
+  const MethodDefinition& method = d.method;
+  if (d.geometry != GeometryKind::solid && d.geometry != GeometryKind::plane_strain) {
+    return MethodFault{"geometry", "implicit steps are made for solid and plane_strain; use method.update: usavg"};
+  }
+  if (method.shape != ShapeKind::ugimp) return MethodFault{"method.shape", "implicit steps have ugimp alone; leave it out"};
+  const Transfer& transfer = method.transfer;
+  const bool plain = transfer.kind == TransferKind::flip && transfer.mixed == 1 && transfer.every == 1;
+  if (!plain && transfer.kind != TransferKind::apic) {
+    return MethodFault{"method.transfer",
+                       "implicit steps have a fraction of flip, pic or apic; leave it out, or write {flip: 0.95}"};
+  }
+  if (method.average_dilatation) {
+    return MethodFault{"method.average_dilatation", "implicit steps have one stress in a cell, which does not lock; leave it out"};
+  }
+  if (method.average_stress.value_or(false)) {
+    return MethodFault{"method.average_stress", "implicit steps have one stress in a cell as it is; leave it out"};
+  }
+  if (method.damping.any()) return MethodFault{"method.damping", "implicit steps have none; leave it out"};
+  if (method.sweeps && !(*method.sweeps >= 1 && *method.sweeps <= kMostImplicitSweeps)) {
+    return MethodFault{"method.sweeps", fmt::format("{} is not possible; write 1 to {}, or leave it out for as many as the pressure "
+                                                    "on tools asks for",
+                                                    *method.sweeps, kMostImplicitSweeps)};
+  }
+  return {};
+}
+
+Fault material_part(const SimulationDefinition& d) {
+  for (const DeformableBody& body : d.bodies) {
+    const MaterialDefinition& material = find_material(d, body);
+    if (const std::string text = refused_implicit(material); !text.empty()) return MethodFault{"materials", text};
+    if (body.field != d.bodies.front().field) {
+      return MethodFault{"contact.pairs", fmt::format("'{}' has a law of contact with another body; with implicit steps bodies move as one where they "
+                                                      "meet: leave the pair out, or use method.update: usavg",
+                                                      body.name)};
+    }
+  }
+  return {};
+}
+
+bool plain(const FrictionLaw& law) { return law.static_coefficient < 0.0 && law.adhesion == 0.0; }
+
+Fault wall_part(const SimulationDefinition& d) {
+  for (std::size_t w = 0; w < d.walls.size(); ++w) {
+    const WallDefinition& wall = d.walls[w];
+    const std::string key = std::string("boundaries.") + kWallNames[w];
+    if (wall.kind == WallKind::absorbing) {
+      return MethodFault{key, "implicit steps have no waves to absorb; write fixed or slip"};
+    }
+    if (wall.kind == WallKind::periodic) {
+      return MethodFault{key, "implicit steps have no periodic axes; write symmetry or slip, or use method.update: usavg"};
+    }
+    if (wall.kind == WallKind::frictional && !plain(wall.friction)) {
+      return MethodFault{key, "implicit steps have one coefficient of friction and no adhesion; leave static_friction and adhesion out"};
+    }
+  }
+  return {};
+}
+
+Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) {
+  const std::string key = fmt::format("rigid_bodies.{}", body.name);
+  if (body.free) {
+    return MethodFault{key, "implicit steps have bodies that move as they are told; leave free out, or use method.update: usavg"};
+  }
+  if (body.particles) return MethodFault{key, "implicit steps meet bodies at points of their surface; leave normals: particles out"};
+  if (body.sides == Sides::two) {
+    return MethodFault{key, "with implicit steps the two sides of a body share nodes; write sides: one"};
+  }
+  std::optional<ContactLaw> first;
+  for (const DeformableBody& other : d.bodies) {
+    const ContactLaw law = rigid_contact_law(d, body, other.name);
+    if (law.kind != ContactLaw::Kind::coulomb && law.kind != ContactLaw::Kind::stick) {
+      return MethodFault{key, "implicit steps have friction or stick; write one of these in contact.pairs"};
+    }
+    if (law.static_friction || !law.adhesion.is_zero()) {
+      return MethodFault{key, "implicit steps have one coefficient of friction and no adhesion; leave static_friction and adhesion out"};
+    }
+    if (first && !same_law(*first, law)) {
+      return MethodFault{key, fmt::format("it has another law with '{}' than with '{}'; with implicit steps a body has one law with all soil",
+                                          other.name, d.bodies.front().name)};
+    }
+    first = law;
+  }
+  return {};
+}
+
+Fault other_part(const SimulationDefinition& d) {
+  if (d.contact.method == ContactMethod::nodes) {
+    return MethodFault{"contact.method", "implicit steps meet bodies at points of their surface; leave it out"};
+  }
+  const auto leave_out = [](const char* key) {
+    return MethodFault{key, "implicit steps do not have it yet; leave it out, or use method.update: usavg"};
+  };
+  if (!d.conditions.empty()) return leave_out("conditions");
+  if (!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()) return leave_out("loads");
+  if (d.sleep) return leave_out("sleep");
+  if (!d.transport.quantities.empty()) return leave_out("transport");
+  if (d.cracks.any()) return leave_out("cracks");
+  if (d.grid.leave_limit > 0) return leave_out("grid.leave");
+  return {};
+}
+
+}  // namespace
+
+std::optional<MethodFault> implicit_fault(const SimulationDefinition& d) {
+  if (d.method.update != UpdateScheme::implicit) {
+    if (!d.method.sweeps) return {};
+    return MethodFault{"method.sweeps", "explicit steps have none; leave it out, or write update: implicit"};
+  }
+  for (const auto part : {method_part, material_part, wall_part, other_part}) {
+    if (const Fault fault = part(d)) return fault;
+  }
+  for (const RigidBodyDefinition& body : d.rigid_bodies) {
+    if (const Fault fault = tool_part(d, body)) return fault;
+  }
+  return {};
+}
+
+}  // namespace mpm

@@ -55,7 +55,7 @@ class ToolRows {
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
   /// Sum of the impulses' magnitudes [N s].
   double pressed() const;
-  /// Mean pressure on the points in contact, each weighted with its impulse [Pa].
+  /// Mean pressure on the points in contact [Pa].
   double pressure(double dt) const;
   /// Books the impulses, with the nodes as they are now, and keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
@@ -82,10 +82,10 @@ class ToolRows {
   };
   /// Of each point of a body, what it did in the last step.
   struct Kept {
-    std::vector<double> impulse;  ///< three numbers each [N s]
-    std::vector<double> own;      ///< Row::own [1/kg]
+    std::vector<double> force;  ///< three numbers each [N]
+    std::vector<double> own;    ///< Row::own [1/kg]
   };
-  bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, Row& row, Place& place) const;
+  bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt, Row& row, Place& place) const;
 
   std::vector<RigidBody*> bodies_;
   std::vector<ContactLaw> laws_;

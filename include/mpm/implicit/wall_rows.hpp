@@ -27,7 +27,7 @@ class WallRows {
   WallRows(const std::array<WallDefinition, 6>& walls, const SoilGrid& grid);
 
   /// Finds the rows of nodes that carry material, with the impulses that they begin with, and gives these to the nodes.
-  void find(std::vector<Node>& nodes);
+  void find(std::vector<Node>& nodes, double dt);
   /// Forgets the rows of the last step; blocks have none until find().
   void clear() {
     rows_.clear();
@@ -37,7 +37,7 @@ class WallRows {
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
   /// Books the impulses of rows, with the nodes as they are now, and those of nodes that are held; keeps the rows' for the
   /// next step.
-  void finish(const std::vector<Node>& nodes, const Impulses& of_held);
+  void finish(const std::vector<Node>& nodes, const Impulses& of_held, double dt);
 
   void accounts(std::vector<ImpulseAccount>& list) const;
   void energies(EnergyReport& report) const;
@@ -48,7 +48,7 @@ class WallRows {
   struct Kept {
     std::uint64_t id;  ///< of its node, and wall
     double own;        ///< 1 / mass of the node [1/kg]
-    Vec3 impulse;      ///< [N s]
+    Vec3 force;        ///< [N]
   };
   std::uint64_t id_of(const SoilGrid::WallNode& node) const;
 

@@ -12,7 +12,9 @@ namespace mpm {
 namespace {
 
 constexpr int kLeastSweeps = 10, kMostSweeps = 100;
-constexpr double kStiffer = 30.0;   ///< modulus that sweeps resolve over the pressure on tools
+constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
+constexpr double kStiffer = 60.0;  ///< modulus that sweeps resolve over the mean pressure on tools
+constexpr double kKept = 0.9;      ///< of the sweeps of the step before, at the least
 constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
@@ -52,7 +54,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     walls_.clear();
     soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
     tools_.find(nodes_, context.start, context.dt);
-    walls_.find(nodes_);
+    walls_.find(nodes_, context.dt);
     solve(context.dt);
     cells_.take(table_, nodes_, context.dt);
     store(context.dt);
@@ -118,14 +120,15 @@ class ImplicitStep final : public Stage, public ContactReporter {
     });
   }
 
-  /// As many as resolve the pressure that tools met in the last step, and one less than in that step at the least, so
-  /// that the force does not jump with their number.
+  /// As many as resolve the pressure that tools met in the last step, and not many less than in that step, so that the force
+  /// does not jump with their number.
   int sweeps_needed(double dt) const {
     if (settings_.sweeps) return *settings_.sweeps;
     const double cell = grid_.layout.smallest_cell();
     const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
     const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
-    return std::max(sweeps_ - 1, static_cast<int>(std::clamp<double>(needed, kLeastSweeps, kMostSweeps)));
+    const double least = std::max<double>(kLeastSweeps, std::ceil(kPerSecond * dt - 1e-9));
+    return std::max(static_cast<int>(kKept * sweeps_), static_cast<int>(std::clamp<double>(needed, least, kMostSweeps)));
   }
 
   void solve(double dt) {
@@ -182,7 +185,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     }
     light_.add(light);
     taken_ += taken;
-    walls_.finish(nodes_, held);
+    walls_.finish(nodes_, held, dt);
     tools_.finish(nodes_, dt);
   }
 

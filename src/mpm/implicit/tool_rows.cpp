@@ -63,7 +63,8 @@ void ToolRows<T>::put_out(std::vector<ParticleSet>& sets) const {
 }
 
 template <class T>
-bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, Row& row, Place& place) const {
+bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law,
+                       double dt, Row& row, Place& place) const {
   const SurfaceSample& point = samples_[body][sample];
   const RigidBody& of = *bodies_[body];
   const GridLayout& layout = grid_.grid().layout;
@@ -117,8 +118,8 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   place.area = point.area;
   const Kept& kept = kept_[body];
   const double ratio = std::min(1.0, kept.own[sample] / most);
-  Vec3 impulse(kept.impulse[3 * sample], kept.impulse[3 * sample + 1], kept.impulse[3 * sample + 2]);
-  impulse *= ratio * ratio;
+  Vec3 impulse(kept.force[3 * sample], kept.force[3 * sample + 1], kept.force[3 * sample + 2]);
+  impulse *= ratio * ratio * dt;
   const double along_normal = impulse.dot(normal);
   Vec3 along = impulse - along_normal * normal;
   if (!law.stick && law.coefficient == 0.0) along.setZero();
@@ -137,7 +138,7 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
     for (std::size_t s = 0; s < samples_[b].size(); ++s) {
       Row row;
       Place place;
-      if (!make(static_cast<int>(b), static_cast<int>(s), nodes, law, row, place)) continue;
+      if (!make(static_cast<int>(b), static_cast<int>(s), nodes, law, dt, row, place)) continue;
       found_.push_back(row);
       found_places_.push_back(place);
     }
@@ -177,13 +178,13 @@ double ToolRows<T>::pressed() const {
 
 template <class T>
 double ToolRows<T>::pressure(double dt) const {
-  double sum = 0.0, squares = 0.0;
+  double sum = 0.0, area = 0.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double impulse = magnitude(rows_[i].impulse), area = places_[i].area * settings_.across;
+    const double impulse = magnitude(rows_[i].impulse);
     sum += impulse;
-    squares += impulse * impulse / (area * dt);
+    if (impulse > 0.0) area += places_[i].area * (planar(settings_.geometry) ? settings_.across : 1.0);
   }
-  return sum > 0.0 ? squares / sum : 0.0;
+  return area > 0.0 ? sum / (area * dt) : 0.0;
 }
 
 template <class T>
@@ -194,7 +195,7 @@ void ToolRows<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) cons
 template <class T>
 void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
   for (Kept& kept : kept_) {
-    std::fill(kept.impulse.begin(), kept.impulse.end(), 0.0);
+    std::fill(kept.force.begin(), kept.force.end(), 0.0);
     std::fill(kept.own.begin(), kept.own.end(), 0.0);
   }
   std::vector<int>& touched = next_;
@@ -217,7 +218,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     // What rows leave undone along the normal.
     ledger.add_loss({0.0, -impulse.dot(normal) * slip.dot(normal)});
     Kept& kept = kept_[place.body];
-    for (int a = 0; a < 3; ++a) kept.impulse[3 * place.sample + a] = impulse[a];
+    for (int a = 0; a < 3; ++a) kept.force[3 * place.sample + a] = impulse[a] / dt;
     kept.own[place.sample] = static_cast<double>(row.own);
     if (impulse.squaredNorm() > 0.0) {
       ++touched[place.body];
@@ -232,7 +233,7 @@ void ToolRows<T>::serialise(StateArchive& archive) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const StateArchive::Group group(archive, "body_" + std::to_string(b));
     ledgers_[b].serialise(archive);
-    archive.list("impulses", kept_[b].impulse);
+    archive.list("forces", kept_[b].force);
     archive.list("own", kept_[b].own);
   }
 }

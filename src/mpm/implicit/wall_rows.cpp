@@ -25,7 +25,7 @@ std::uint64_t WallRows<T>::id_of(const SoilGrid::WallNode& node) const {
 }
 
 template <class T>
-void WallRows<T>::find(std::vector<Node>& nodes) {
+void WallRows<T>::find(std::vector<Node>& nodes, double dt) {
   const int blocks = grid_.grid().blocks.size();
   begin_.assign(blocks + 1, 0);
   rows_.clear();
@@ -47,7 +47,7 @@ void WallRows<T>::find(std::vector<Node>& nodes) {
     if (known != kept_.end() && known->id == id) {
       const double ratio = std::min(1.0, known->own / static_cast<double>(node.inverse_mass));
       for (int a = 0; a < 3; ++a) {
-        row.impulse[a] = row.free[a] * static_cast<T>(ratio * ratio * known->impulse[a]);
+        row.impulse[a] = row.free[a] * static_cast<T>(ratio * ratio * dt * known->force[a]);
         node.v[a] += node.inverse_mass * row.impulse[a];
       }
     }
@@ -60,7 +60,7 @@ void WallRows<T>::find(std::vector<Node>& nodes) {
 }
 
 template <class T>
-void WallRows<T>::finish(const std::vector<Node>& nodes, const Impulses& of_held) {
+void WallRows<T>::finish(const std::vector<Node>& nodes, const Impulses& of_held, double dt) {
   std::array<Vec3, 6> given;
   for (int w = 0; w < 6; ++w) given[w] = Vec3(of_held[w][0], of_held[w][1], of_held[w][2]);
   kept_.resize(rows_.size());
@@ -69,11 +69,11 @@ void WallRows<T>::finish(const std::vector<Node>& nodes, const Impulses& of_held
     const Node& node = nodes[row.node];
     Kept& kept = kept_[i] = {ids_[i], static_cast<double>(node.inverse_mass), Vec3::Zero()};
     for (int a = 0; a < 3; ++a) {
-      kept.impulse[a] = static_cast<double>(row.impulse[a]);
-      const double lost = -kept.impulse[a] * static_cast<double>(node.v[a]);
-      (a == row.axis ? loss_ : friction_) += lost;
+      const double impulse = static_cast<double>(row.impulse[a]);
+      kept.force[a] = impulse / dt;
+      given[wall_of_[i]][a] += impulse;
+      (a == row.axis ? loss_ : friction_) -= impulse * static_cast<double>(node.v[a]);
     }
-    given[wall_of_[i]] += kept.impulse;
   }
   std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.id < b.id; });
   for (int w = 0; w < 6; ++w) accounts_[w].add(given[w]);
@@ -106,7 +106,7 @@ void WallRows<T>::serialise(StateArchive& archive) {
   archive.rows("nodes", kept_);
   archive.column("nodes/id", kept_, &Kept::id);
   archive.column("nodes/own", kept_, &Kept::own);
-  archive.column("nodes/impulse", kept_, &Kept::impulse);
+  archive.column("nodes/force", kept_, &Kept::force);
 }
 
 template class WallRows<double>;

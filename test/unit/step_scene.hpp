@@ -157,6 +157,9 @@ class StepScene {
       case UpdateScheme::usavg:
         step_usavg(*mechanics, modules_, now);
         break;
+      case UpdateScheme::implicit:
+        step_implicit(*mechanics, modules_, now);
+        break;
     }
     if (mechanics->failed()) throw Error("a particle of the test is crushed");
     if (mechanics->needs_sort()) sort();

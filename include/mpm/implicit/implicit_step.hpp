@@ -1,21 +1,21 @@
-// The implicit step of rigid-plastic soil: velocities at the end of the step for which the stresses of all cells fulfil the
-// law, and all contacts Coulomb's, so that a step may last as long as a controller's period and not as long as a wave takes
-// to cross a cell.
+// The implicit step of rigid-plastic soil: velocities at the end of the step for which the stresses of all cells fulfil
+// the law, and all contacts Coulomb's, so that a step may last as long as a controller's period and not as long as a
+// wave takes to cross a cell.
 //
-// Unknown are the stresses r of cells, one each, and the impulses l of contacts. Velocities follow from them, so that momentum
-// is exact whatever has been found so far:
+// Unknown are the stresses r of cells, one each, and the impulses l of contacts. Velocities follow from them, so that
+// momentum is exact whatever has been found so far:
 //
 //   v = v* + M^-1 (sum_c dt V B^T r + sum_k J^T l),   v* = the velocity of the transfer, with gravity and loads,
 //
-// and each cell is to fulfil its law with its rate of strain B v less the elastic part, contacts theirs (kernel/soil_cells.hpp).
-// Blocks are swept in the order of their colours, the cells of a block in a fixed order, to and fro, then its contacts:
-// Gauss-Seidel. Stresses and impulses of the step before begin it; it is by this that few sweeps suffice. A sweep brings stress as
-// an elastic soil of modulus rho (h / dt)^2 would: n of them resolve loads well below n rho (h / dt)^2, and of softer soil
-// than that the own modulus. The same bits for any number of threads.
+// and each cell is to fulfil its law with its rate of strain B v less the elastic part, contacts theirs
+// (kernel/soil_cells.hpp). Blocks are swept in the order of their colours, the cells of a block in a fixed order, to
+// and fro, then its contacts: Gauss-Seidel. Stresses and impulses of the step before begin it; it is by this that few
+// sweeps suffice. A sweep brings stress as an elastic soil of modulus rho (h / dt)^2 would: n of them resolve loads
+// well below n rho (h / dt)^2, and of softer soil than that the own modulus. The same bits for any number of threads.
 //
-// Weak: no waves, no rebound: an impact is plastic. Soil is soft before it fails, as above. Volume is lost where soil falls and
-// few sweeps are made. The place of a tool's edge within a cell shows (tool_rows.hpp).
-// Source: G. Daviet, F. Bertails-Descoubes (2016), ACM Trans. Graph. 35(4) 102; doc/implicit.md has what it is worth.
+// Weak: no waves, no rebound: an impact is plastic. Soil is soft before it fails, as above. Volume is lost where soil
+// falls and few sweeps are made. The place of a tool's edge within a cell shows (tool_rows.hpp). Source: G. Daviet, F.
+// Bertails-Descoubes (2016), ACM Trans. Graph. 35(4) 102; doc/implicit.md has what it is worth.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@ inline constexpr double kImplicitTravel = 0.5;            ///< cells that a part
 
 struct ImplicitSettings {
   GeometryKind geometry = GeometryKind::solid;
-  double across = 1.0;           ///< thickness of a plane [m]
-  std::optional<int> sweeps;     ///< of every step; without it as many as its contacts need
+  double across = 1.0;        ///< thickness of a plane [m]
+  std::optional<int> sweeps;  ///< of every step; without it as many as its contacts need
   std::array<WallDefinition, 6> walls;
   int threads = 1;
   Isa isa = Isa::plain;

@@ -1,15 +1,16 @@
-// The cells of the implicit step: what particles give to them, the unknown stresses that sweeps find, and what particles
-// take from these.
+// The cells of the implicit step: what particles give to them, the unknown stresses that sweeps find, and what
+// particles take from these.
 //
-// A particle's box is cut by the cells' faces into up to eight pieces. Over a piece the hat functions of the cell's nodes are
-// products of straight lines, whose means are their values at its middle: so the sums over pieces of volume and of
-// products of their middles' coordinates (seven numbers) give the mean gradients B of uGIMP exactly, and the stress of a
-// particle in a step is the mean over its pieces of the cells' stresses. Cells with one stress do not lock, and pressures
-// that alternate from cell to cell have no place in them (doc/implicit.md).
+// A particle's box is cut by the cells' faces into up to eight pieces. Over a piece the hat functions of the cell's
+// nodes are products of straight lines, whose means are their values at its middle: so the sums over pieces of volume
+// and of products of their middles' coordinates (seven numbers) give the mean gradients B of uGIMP exactly, and the
+// stress of a particle in a step is the mean over its pieces of the cells' stresses. Cells with one stress do not lock,
+// and pressures that alternate from cell to cell have no place in them (doc/implicit.md).
 //
 // Of each body a cell has a stress of its own. Deformation, stress and history of particles are what the explicit laws
 // have (material/drucker_prager.hpp): F, the Kirchhoff stress over initial density, plastic strain, opening and plastic
-// work. The opening may be negative here: soil that few sweeps have left too dense, which gives back a fifth of it in a step.
+// work. The opening may be negative here: soil that few sweeps have left too dense, which gives back a fifth of it in a
+// step.
 //
 // Weak: stress is that of cells, without variation inside them, so that it spreads by up to a cell where material moves
 // through the grid. What a sweep leaves undone is an error of volume or strength, of which the particles remember the
@@ -23,9 +24,9 @@
 #include "mpm/implicit/soil_grid.hpp"
 #include "mpm/implicit/soil_law.hpp"
 #include "mpm/kernel/soil_cells.hpp"
+#include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
-#include "mpm/material/law.hpp"
 
 namespace mpm {
 
@@ -93,7 +94,7 @@ class SoilCells {
   std::vector<int> slots_;
   std::vector<Sums> sums_;      ///< of each place
   std::vector<Motion> motion_;  ///< of each place
-  std::vector<int> begin_;    ///< of each block, its first group
+  std::vector<int> begin_;      ///< of each block, its first group
   std::vector<Group> groups_;
   std::vector<std::vector<HeldEntry>> held_;                 ///< of each block
   std::vector<std::vector<mpm_kernel::SoilMask<T>>> masks_;  ///< of each block

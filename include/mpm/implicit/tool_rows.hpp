@@ -1,13 +1,14 @@
 // Contact of rigid bodies with soil in an implicit step: points on the bodies' own surfaces, each a row of the solve.
 //
 // A row binds the velocity of the soil at its point, interpolated from the nodes of its cell, to that of the body:
-// no approach, Coulomb friction. Points lie half a cell apart, and none nearer than kClearance cells to a convex edge: a
-// row binds the nodes around it, so that a body acts about half a cell further out than its outermost points lie. A point is
-// in contact where the nodes around it carry at least kPresent of the soil's density. The impulse of a row begins the next step's
-// solve, less where the nodes have become lighter. Particles that a step has left inside a body are put back on its surface.
+// no approach, Coulomb friction. Points lie half a cell apart, and none nearer than kClearance cells to a convex edge:
+// a row binds the nodes around it, so that a body acts about half a cell further out than its outermost points lie. A
+// point is in contact where the nodes around it carry at least kPresent of the soil's density. The impulse of a row
+// begins the next step's solve, less where the nodes have become lighter. Particles that a step has left inside a body
+// are put back on its surface.
 //
-// Weak: between two points of an edge the place of the edge within a cell shows (+-7 % of the force with 4 cells of depth).
-// Source: derived and calibrated for this project; doc/implicit.md has the forces.
+// Weak: between two points of an edge the place of the edge within a cell shows (+-7 % of the force with 4 cells of
+// depth). Source: derived and calibrated for this project; doc/implicit.md has the forces.
 #pragma once
 
 #include <cstdint>
@@ -39,11 +40,13 @@ class ToolRows {
   using Node = mpm_kernel::SoilNode<T>;
 
   /// Bodies and grid outlive this. `laws`: of each body, with all soil.
-  ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> laws, const SoilGrid& grid, const ToolRowSettings& settings);
+  ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> laws, const SoilGrid& grid,
+           const ToolRowSettings& settings);
 
   /// Puts particles that lie in a body on its surface.
   void put_out(std::vector<ParticleSet>& sets) const;
-  /// Finds the rows of the step from `start` [s] on, with the impulses that they begin with, and gives these to the nodes.
+  /// Finds the rows of the step from `start` [s] on, with the impulses that they begin with, and gives these to the
+  /// nodes.
   /// @throws FunctionError for a law of contact that is not possible
   void find(std::vector<Node>& nodes, double start, double dt);
   /// Forgets the rows of the last step; blocks have none until find().
@@ -85,14 +88,15 @@ class ToolRows {
     std::vector<double> force;  ///< three numbers each [N]
     std::vector<double> own;    ///< Row::own [1/kg]
   };
-  bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt, Row& row, Place& place) const;
+  bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt, Row& row,
+            Place& place) const;
 
   std::vector<RigidBody*> bodies_;
   std::vector<ContactLaw> laws_;
   const SoilGrid& grid_;
   ToolRowSettings settings_;
   std::vector<std::vector<SurfaceSample>> samples_;  ///< of each body
-  std::vector<double> reach_;                        ///< of each body: distance of the farthest point from its origin [m]
+  std::vector<double> reach_;  ///< of each body: distance of the farthest point from its origin [m]
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
   std::vector<Row> rows_, found_;

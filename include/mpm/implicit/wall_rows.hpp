@@ -1,6 +1,6 @@
-// Walls of the domain in an implicit step. Where a wall always holds nodes (fixed, slip, symmetry) sweeps never move them;
-// what it takes is found afterwards from the balance of each node. A wall with friction is a row of Coulomb's law at
-// each of its nodes, whose impulse begins the next step's solve, less where the node has become lighter.
+// Walls of the domain in an implicit step. Where a wall always holds nodes (fixed, slip, symmetry) sweeps never move
+// them; what it takes is found afterwards from the balance of each node. A wall with friction is a row of Coulomb's law
+// at each of its nodes, whose impulse begins the next step's solve, less where the node has become lighter.
 //
 // Weak: friction acts along axes that no other wall holds, with the normal impulse of its own wall alone.
 #pragma once
@@ -35,8 +35,8 @@ class WallRows {
   }
   Row* rows(int block) { return rows_.data() + begin_[block]; }
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
-  /// Books the impulses of rows, with the nodes as they are now, and those of nodes that are held; keeps the rows' for the
-  /// next step.
+  /// Books the impulses of rows, with the nodes as they are now, and those of nodes that are held; keeps the rows' for
+  /// the next step.
   void finish(const std::vector<Node>& nodes, const Impulses& of_held, double dt);
 
   void accounts(std::vector<ImpulseAccount>& list) const;

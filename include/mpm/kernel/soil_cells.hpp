@@ -7,20 +7,20 @@
 //   e_N = tr / sqrt(3), e_1 = (xx - yy) / sqrt(2), e_2 = (2 zz - xx - yy) / sqrt(6), e_3..5 = sqrt(2) (yz, xz, xy).
 //
 // With the gradients B of the cell's eight nodes (four in a plane, where the others have no mass) e = B v, and a stress
-// gives the nodes the momentum dt V B^T r. A sweep takes cell after cell and solves its law for its own stress, in closed
-// form, with the velocities as they are: Gauss-Seidel. Cells of a block whose numbers along each axis are odd or even alike share no
-// node: eight of them are solved at once, one a lane.
+// gives the nodes the momentum dt V B^T r. A sweep takes cell after cell and solves its law for its own stress, in
+// closed form, with the velocities as they are: Gauss-Seidel. Cells of a block whose numbers along each axis are odd or
+// even alike share no node: eight of them are solved at once, one a lane.
 //
 //   |r_T| <= sqrt(2) (cohesion + sine r_N / sqrt(3)) / k(sine), r_N >= least; flow e_T = -a r_T, e_N = theta |e_T|,
 //   theta = dilates sqrt(2/3) dilation / k(dilation),
 //
-// with the k of Mohr-Coulomb's surface at the Lode angle of r_T (material/drucker_prager.hpp), whose direction is that of -b_T
-// whatever its size; of a round cone k is 1. A sweep takes the Lode angle that the one before has found, so that what follows from
-// it is not waited for. With b = e - W r + shift, what the cell's rate would be without its stress, and
-// the diagonal numbers w that stand for its answer to it: stick r = -b / w, or slide, or part.
-// Source: G. Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the continuum simulation of
-// granular materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at no pressure, a limit of
-// tension and the Lode angle is this project's.
+// with the k of Mohr-Coulomb's surface at the Lode angle of r_T (material/drucker_prager.hpp), whose direction is that
+// of -b_T whatever its size; of a round cone k is 1. A sweep takes the Lode angle that the one before has found, so
+// that what follows from it is not waited for. With b = e - W r + shift, what the cell's rate would be without its
+// stress, and the diagonal numbers w that stand for its answer to it: stick r = -b / w, or slide, or part. Source: G.
+// Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the continuum simulation of granular
+// materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at no pressure, a limit of tension
+// and the Lode angle is this project's.
 #pragma once
 
 namespace mpm_kernel {
@@ -38,10 +38,10 @@ struct alignas(4 * sizeof(T)) SoilNode {
 /// Cells that share no node, one a lane. A lane without a cell has `push` 0 and nodes without mass.
 template <class T>
 struct alignas(64) SoilGroup {
-  T gradient[3][kCellNodes][kGroupCells];   ///< mean of the nodes' over the soil in the cell [1/m]
-  T stress[6][kGroupCells];                 ///< r [Pa]
-  T shift[6][kGroupCells];                  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
-  T closing[kGroupCells];                   ///< part of shift[0] by which openings close, or volume is given back [1/s]
+  T gradient[3][kCellNodes][kGroupCells];  ///< mean of the nodes' over the soil in the cell [1/m]
+  T stress[6][kGroupCells];                ///< r [Pa]
+  T shift[6][kGroupCells];  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
+  T closing[kGroupCells];   ///< part of shift[0] by which openings close, or volume is given back [1/s]
   T weight_n[kGroupCells], weight_t[kGroupCells];          ///< change of the cell's e by its own r, at least [1/(Pa s)]
   T compliance_n[kGroupCells], compliance_t[kGroupCells];  ///< elastic, over the step [1/(Pa s)]
   T push[kGroupCells];                                     ///< dt V [m^3 s]
@@ -53,11 +53,11 @@ struct alignas(64) SoilGroup {
   T strength[kGroupCells], slope[kGroupCells], theta[kGroupCells];
   int node[kCellNodes][kGroupCells];
   int place[kGroupCells];  ///< of the cell among all places of cells; -1 without one
-  int mask;  ///< number of its SoilMask; -1: no node of it is held
+  int mask;                ///< number of its SoilMask; -1: no node of it is held
 };
 
-/// Where the soil of a group's cells lies: means over it of x, y, z, xy, xz and yz, in cells from the cell's lower corner,
-/// and the number of edges in a metre along each axis; along y in a plane 0.
+/// Where the soil of a group's cells lies: means over it of x, y, z, xy, xz and yz, in cells from the cell's lower
+/// corner, and the number of edges in a metre along each axis; along y in a plane 0.
 template <class T>
 struct SoilPlaces {
   T mean[6][kGroupCells];
@@ -73,9 +73,9 @@ struct SoilMask {
 /// What the velocities that were found do to the cells of a group.
 template <class T>
 struct SoilFlow {
-  T rate[6][kGroupCells];   ///< e [1/s]
-  T shear[kGroupCells];     ///< |e_T| of its part that is not elastic [1/s]
-  T opening[kGroupCells];   ///< e_N - theta |e_T| of that part [1/s]
+  T rate[6][kGroupCells];      ///< e [1/s]
+  T shear[kGroupCells];        ///< |e_T| of its part that is not elastic [1/s]
+  T opening[kGroupCells];      ///< e_N - theta |e_T| of that part [1/s]
   T gradient[9][kGroupCells];  ///< of velocity, row by row [1/s]
 };
 
@@ -95,11 +95,11 @@ struct ContactRow {
 template <class T>
 struct WallRow {
   int node;
-  int axis;       ///< across the wall
-  T out;          ///< 1 where the material lies towards higher numbers, else -1
-  T free[3];      ///< 1 along axes on which no other wall holds the node, else 0
-  T friction;     ///< coefficient; negative: no sliding
-  T impulse[3];   ///< [N s]
+  int axis;      ///< across the wall
+  T out;         ///< 1 where the material lies towards higher numbers, else -1
+  T free[3];     ///< 1 along axes on which no other wall holds the node, else 0
+  T friction;    ///< coefficient; negative: no sliding
+  T impulse[3];  ///< [N s]
 };
 
 /// What is swept in one block, in this order or backwards.
@@ -115,8 +115,8 @@ struct SoilBlock {
 /// What particles give to a cell: sums over their pieces in it, weighted with volumes.
 template <class T>
 struct alignas(64) SoilSums {
-  T volume;   ///< [m^3]
-  T place[6];  ///< x, y, z, xy, xz, yz, in cells from the lower corner
+  T volume;     ///< [m^3]
+  T place[6];   ///< x, y, z, xy, xz, yz, in cells from the lower corner
   T stress[6];  ///< r
   T opening, left, dilates;
 };
@@ -131,8 +131,8 @@ struct alignas(64) SoilMotion {
   T unused[6];
 };
 
-/// Cells around a block, as BlockTable numbers its neighbours: where those of each block begin, by the node at their lower
-/// corner, or null where none may be.
+/// Cells around a block, as BlockTable numbers its neighbours: where those of each block begin, by the node at their
+/// lower corner, or null where none may be.
 template <class T>
 struct SoilPlacesOf {
   SoilSums<T>* sums[27];
@@ -150,9 +150,9 @@ struct SoilParticles {
   double mass;                 ///< [kg]
   double half[3];              ///< half of a box along the grid's axes [cells]
   double origin[3], inverse_cell[3];
-  double density;               ///< initial [kg/m^3]
-  double bulk, shear;           ///< [Pa]
-  double per_strain;            ///< of the fall of strength (StrengthFall)
+  double density;                         ///< initial [kg/m^3]
+  double bulk, shear;                     ///< [Pa]
+  double per_strain;                      ///< of the fall of strength (StrengthFall)
   double dilation_start, dilation_slope;  ///< DilationEnd
 };
 
@@ -165,8 +165,8 @@ struct SoilPasses {
 
 template <class T>
 struct SweepTable {
-  /// Finds gradients and weights from the places of the soil, with `mask` where it is not null, and multiplies the weights
-  /// with `push`.
+  /// Finds gradients and weights from the places of the soil, with `mask` where it is not null, and multiplies the
+  /// weights with `push`.
   void (*prepare)(SoilGroup<T>&, const SoilPlaces<T>&, const SoilNode<T>* nodes, const SoilMask<T>* mask);
   /// Returns stresses to the surface of their soil, with the same direction of r_T.
   void (*project)(SoilGroup<T>&);

@@ -1,4 +1,5 @@
-// What implicit steps go together with: the one table of these rules. They are checked when a Simulation is put together.
+// What implicit steps go together with: the one table of these rules. They are checked when a Simulation is put
+// together.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@ namespace mpm {
 
 inline constexpr int kMostImplicitSweeps = 1000;  ///< that a scene may ask for
 
-/// The first thing in a scene that takes implicit steps which cannot take them, by its key and with what to write instead;
-/// none when it can, or its steps are explicit. Of a scene with explicit steps: what only implicit ones have.
+/// The first thing in a scene that takes implicit steps which cannot take them, by its key and with what to write
+/// instead; none when it can, or its steps are explicit. Of a scene with explicit steps: what only implicit ones have.
 std::optional<MethodFault> implicit_fault(const SimulationDefinition& definition);
 
 }  // namespace mpm

@@ -2,9 +2,9 @@
 //
 // USF costs least and conserves energy less well; USL takes strain from the momentum that the particles end the step
 // with (the modified form, re-extrapolated) and loses energy; USAVG does both and has the smallest energy drift.
-// An implicit step has no strain of its own: a stage (implicit/implicit_step.hpp) finds velocities and stresses together.
-// Contact and walls act on velocities beside the gathered momentum, which stays as it was, so nothing has to be undone
-// before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
+// An implicit step has no strain of its own: a stage (implicit/implicit_step.hpp) finds velocities and stresses
+// together. Contact and walls act on velocities beside the gathered momentum, which stays as it was, so nothing has to
+// be undone before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
 #pragma once
 
 #include <array>

@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kLeastSweeps = 10, kMostSweeps = 100;
 constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
-constexpr double kStiffer = 60.0;  ///< modulus that sweeps resolve over the mean pressure on tools
-constexpr double kKept = 0.9;      ///< of the sweeps of the step before, at the least
-constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
+constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
+constexpr double kKept = 0.9;          ///< of the sweeps of the step before, at the least
+constexpr double kLightest = 1e-6;     ///< of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
 class ImplicitStep final : public Stage, public ContactReporter {
@@ -120,26 +120,31 @@ class ImplicitStep final : public Stage, public ContactReporter {
     });
   }
 
-  /// As many as resolve the pressure that tools met in the last step, and not many less than in that step, so that the force
-  /// does not jump with their number.
+  /// As many as resolve the pressure that tools met in the last step, and not many less than in that step, so that the
+  /// force does not jump with their number.
   int sweeps_needed(double dt) const {
     if (settings_.sweeps) return *settings_.sweeps;
     const double cell = grid_.layout.smallest_cell();
     const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
     const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
     const double least = std::max<double>(kLeastSweeps, std::ceil(kPerSecond * dt - 1e-9));
-    return std::max(static_cast<int>(kKept * sweeps_), static_cast<int>(std::clamp<double>(needed, least, kMostSweeps)));
+    return std::max(static_cast<int>(kKept * sweeps_),
+                    static_cast<int>(std::clamp<double>(needed, least, kMostSweeps)));
+  }
+
+  void meet() {
+    soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.meet(block_at(block), nodes_.data()); });
   }
 
   void solve(double dt) {
     sweeps_ = sweeps_needed(dt);
+    meet();  // else what rests on friction would begin to creep
     for (int sweep = 0; sweep < sweeps_; ++sweep) {
       const bool backwards = sweep % 2 == 1;
       const double before = sweep + 1 == sweeps_ ? tools_.pressed() : 0.0;
-      soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
-        table_.sweep(block_at(block), nodes_.data(), backwards);
-      });
-      soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.meet(block_at(block), nodes_.data()); });
+      soil_grid_.shares().by_colour(settings_.threads,
+                                    [&](int block) { table_.sweep(block_at(block), nodes_.data(), backwards); });
+      meet();
       if (sweep + 1 < sweeps_) continue;
       const double now = tools_.pressed();
       change_ = now > 0.0 ? std::abs(now - before) / now : 0.0;

@@ -42,14 +42,27 @@ const CellOrder& cell_order(int dim) {
   return dim == 3 ? kSpace : kPlane;
 }
 
+/// Of the cells of a body in a block.
+template <class T>
+int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
+  const CellOrder& order = cell_order(dim);
+  int groups = 0;
+  for (int c = 0; c < 1 << dim; ++c) {
+    int cells = 0;
+    for (int i = order.begin[c]; i < order.begin[c + 1]; ++i) cells += sums[order.numbers[i]].volume > T(0);
+    groups += (cells + mpm_kernel::kGroupCells - 1) / mpm_kernel::kGroupCells;
+  }
+  return groups;
+}
+
 /// A lane without a cell: that of the first one, which moves nothing.
 template <class T>
 void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T>& places, int lane, int no_node) {
   for (auto& mean : places.mean) mean[lane] = mean[0];
   for (auto& node : group.node) node[lane] = no_node;
   for (int i = 0; i < 6; ++i) group.stress[i][lane] = group.shift[i][lane] = T(0);
-  for (auto* numbers : {&group.compliance_n, &group.compliance_t, &group.sine, &group.cohesion,
-                        &group.dilation, &group.dilates, &group.least, &group.lode, &group.closing}) {
+  for (auto* numbers : {&group.compliance_n, &group.compliance_t, &group.sine, &group.cohesion, &group.dilation,
+                        &group.dilates, &group.least, &group.lode, &group.closing}) {
     (*numbers)[lane] = (*numbers)[0];
   }
   group.push[lane] = T(0);
@@ -164,16 +177,9 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
       });
     }
   });
-  const CellOrder& order = cell_order(grid.layout.dim());
   grid_.shares().at_once(threads_, [&](int block) {
     int groups = 0;
-    each_slot(block, [&](int, int at) {
-      for (int c = 0; c < 1 << grid.layout.dim(); ++c) {
-        int cells = 0;
-        for (int i = order.begin[c]; i < order.begin[c + 1]; ++i) cells += sums_[at + order.numbers[i]].volume > 0.0;
-        groups += (cells + mpm_kernel::kGroupCells - 1) / mpm_kernel::kGroupCells;
-      }
-    });
+    each_slot(block, [&](int, int at) { groups += count_groups(sums_.data() + at, grid.layout.dim()); });
     begin_[block + 1] = groups;
   });
   begin_[0] = 0;
@@ -185,7 +191,8 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
 }
 
 template <class T>
-void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block) {
+void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt,
+                               int block) {
   held_[block].clear();
   masks_[block].clear();
   int next = begin_[block];
@@ -199,7 +206,8 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
   std::size_t held = 0;
   const auto finish = [&](int lanes) {
     Group& group = groups_[next];
-    for (int lane = lanes; lane < mpm_kernel::kGroupCells; ++lane) copy_without_soil(group, places, lane, grid_.nodes());
+    for (int lane = lanes; lane < mpm_kernel::kGroupCells; ++lane)
+      copy_without_soil(group, places, lane, grid_.nodes());
     table.prepare(group, places, nodes.data(), group.mask >= 0 ? &mask : nullptr);
     if (group.mask >= 0) {
       group.mask = static_cast<int>(masks_[block].size());
@@ -239,8 +247,8 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
 }
 
 template <class T>
-void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt, int number,
-                             int lane, mpm_kernel::SoilPlaces<T>& places, mpm_kernel::SoilMask<T>& mask) {
+void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt,
+                             int number, int lane, mpm_kernel::SoilPlaces<T>& places, mpm_kernel::SoilMask<T>& mask) {
   Group& group = groups_[number];
   const int corners = 1 << grid_.grid().layout.dim();
   const double per_volume = 1.0 / sums.volume;
@@ -289,7 +297,8 @@ void SoilCells<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) con
       const double* g = held.gradient;
       const double rows[3] = {s.xx * g[0] + s.xy * g[1] + s.xz * g[2], s.xy * g[0] + s.yy * g[1] + s.yz * g[2],
                               s.xz * g[0] + s.yz * g[1] + s.zz * g[2]};
-      walls[held.wall][held.axis] -= static_cast<double>(group.push[held.lane]) * rows[held.axis];  // tension is positive in s
+      walls[held.wall][held.axis] -=
+          static_cast<double>(group.push[held.lane]) * rows[held.axis];  // tension is positive in s
     }
   }
 }

@@ -42,8 +42,9 @@ void take_cone(const DruckerPragerDefinition& d, ImplicitSoil& soil) {
 std::string refused_implicit(const MaterialDefinition& material) {
   if (std::holds_alternative<DruckerPragerDefinition>(material.law)) return {};
   if (std::holds_alternative<MohrCoulombDefinition>(material.law)) return {};
-  return fmt::format("implicit steps are made for soil of drucker_prager and mohr_coulomb, not for '{}' ({}); use usavg",
-                     material.name, law_name(material.law));
+  return fmt::format(
+      "implicit steps are made for soil of drucker_prager and mohr_coulomb, not for '{}' ({}); use usavg",
+      material.name, law_name(material.law));
 }
 
 ImplicitSoil::ImplicitSoil(const MaterialDefinition& material)

@@ -27,7 +27,8 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
   for (const RigidBody* body : bodies_) {
     samples_.push_back(sample_surface(body->surface(), settings.geometry, {kApart * cell, kClearance * cell}));
     ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
-    kept_.push_back({std::vector<double>(3 * samples_.back().size(), 0.0), std::vector<double>(samples_.back().size(), 0.0)});
+    kept_.push_back(
+        {std::vector<double>(3 * samples_.back().size(), 0.0), std::vector<double>(samples_.back().size(), 0.0)});
   }
 }
 
@@ -63,8 +64,8 @@ void ToolRows<T>::put_out(std::vector<ParticleSet>& sets) const {
 }
 
 template <class T>
-bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law,
-                       double dt, Row& row, Place& place) const {
+bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt,
+                       Row& row, Place& place) const {
   const SurfaceSample& point = samples_[body][sample];
   const RigidBody& of = *bodies_[body];
   const GridLayout& layout = grid_.grid().layout;
@@ -189,7 +190,8 @@ double ToolRows<T>::pressure(double dt) const {
 
 template <class T>
 void ToolRows<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) const {
-  for (const HeldPart& held : held_) walls[held.wall][held.axis] += held.weight * static_cast<double>(rows_[held.row].impulse[held.axis]);
+  for (const HeldPart& held : held_)
+    walls[held.wall][held.axis] += held.weight * static_cast<double>(rows_[held.row].impulse[held.axis]);
 }
 
 template <class T>
@@ -211,7 +213,8 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
       normal[a] = static_cast<double>(row.normal[a]);
       velocity[a] = static_cast<double>(row.velocity[a]);
       slip[a] = -velocity[a];
-      for (int e = 0; e < mpm_kernel::kCellNodes; ++e) slip[a] += static_cast<double>(row.weight[a][e]) * static_cast<double>(nodes[row.node[e]].v[a]);
+      for (int e = 0; e < mpm_kernel::kCellNodes; ++e)
+        slip[a] += static_cast<double>(row.weight[a][e]) * static_cast<double>(nodes[row.node[e]].v[a]);
     }
     ContactLedger& ledger = ledgers_[place.body];
     ledger.give({impulse, normal, place.at - body.pose().position, velocity, slip});

@@ -43,7 +43,8 @@ void WallRows<T>::find(std::vector<Node>& nodes, double dt) {
     for (int a = 0; a < 3; ++a) row.free[a] = grid_.holder(at.node, a) == SoilGrid::kFree ? T(1) : T(0);
     row.friction = walls_[at.wall].friction.stick ? T(-1) : static_cast<T>(walls_[at.wall].friction.coefficient);
     const std::uint64_t id = id_of(at);
-    const auto known = std::lower_bound(kept_.begin(), kept_.end(), id, [](const Kept& k, std::uint64_t i) { return k.id < i; });
+    const auto known =
+        std::lower_bound(kept_.begin(), kept_.end(), id, [](const Kept& k, std::uint64_t i) { return k.id < i; });
     if (known != kept_.end() && known->id == id) {
       const double ratio = std::min(1.0, known->own / static_cast<double>(node.inverse_mass));
       for (int a = 0; a < 3; ++a) {

@@ -269,8 +269,8 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   const bool implicit = method.update == UpdateScheme::implicit;
   if (implicit && !transfer) {
     method.transfer = kTransferOfImplicit;
-    scene.choices.emplace_back("method.transfer",
-                               fmt::format("{}: what implicit steps were measured with", transfer_text(method.transfer)));
+    scene.choices.emplace_back(
+        "method.transfer", fmt::format("{}: what implicit steps were measured with", transfer_text(method.transfer)));
   }
   const bool kept = transfer.has_value() || implicit || calm(root, part_of_pic, scene);
   if (transfer) {

@@ -56,7 +56,8 @@ void Simulation::State::see_courant(double dt, const StepLimit& found) {
 bool Simulation::State::step(double start, double dt, bool more) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{fields, dt, start};
-  constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg, &step_implicit};  // in the order of UpdateScheme
+  constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg,
+                                     &step_implicit};  // in the order of UpdateScheme
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);

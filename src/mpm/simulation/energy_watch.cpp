@@ -49,7 +49,8 @@ void Simulation::State::watch_energy(double now, const StepLimit& found) {
   const EnergyWatch::Made made = energy_watch.look(find_totals().energy, 0.5 * total_mass * still * still, steps.steps);
   if (!made.too_much) return;
   const bool implicit = definition.method.update == UpdateScheme::implicit;
-  std::string remedy = implicit ? "lower time.step, or raise method.sweeps" : "lower time.cfl, or take a finer grid.cell";
+  std::string remedy =
+      implicit ? "lower time.step, or raise method.sweeps" : "lower time.cfl, or take a finer grid.cell";
   if (definition.method.update != UpdateScheme::usavg) remedy += ", or method.update: usavg";
   if (foreign_modules) remedy += "; or let modules of the program report the work that they do (Module::energies)";
   const std::string reason = fmt::format(

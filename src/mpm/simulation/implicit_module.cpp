@@ -1,5 +1,5 @@
-// Implicit steps of soil as a module: cells, contact with tools and walls, which a scene with explicit steps has as modules of
-// their own.
+// Implicit steps of soil as a module: cells, contact with tools and walls, which a scene with explicit steps has as
+// modules of their own.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@ void add_implicit(RunParts& parts) {
   if (definition.method.update != UpdateScheme::implicit) return;
   ImplicitParts made;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
-    made.bodies.push_back({&parts.sets[s], &parts.laws[s], ImplicitSoil(find_material(definition, definition.bodies[s]))});
+    made.bodies.push_back(
+        {&parts.sets[s], &parts.laws[s], ImplicitSoil(find_material(definition, definition.bodies[s]))});
   }
   made.sets = &parts.sets;
   const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);

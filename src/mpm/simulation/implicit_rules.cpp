@@ -18,7 +18,8 @@ Fault method_part(const SimulationDefinition& d) {
   if (d.geometry != GeometryKind::solid && d.geometry != GeometryKind::plane_strain) {
     return MethodFault{"geometry", "implicit steps are made for solid and plane_strain; use method.update: usavg"};
   }
-  if (method.shape != ShapeKind::ugimp) return MethodFault{"method.shape", "implicit steps have ugimp alone; leave it out"};
+  if (method.shape != ShapeKind::ugimp)
+    return MethodFault{"method.shape", "implicit steps have ugimp alone; leave it out"};
   const Transfer& transfer = method.transfer;
   const bool plain = transfer.kind == TransferKind::flip && transfer.mixed == 1 && transfer.every == 1;
   if (!plain && transfer.kind != TransferKind::apic) {
@@ -26,16 +27,18 @@ Fault method_part(const SimulationDefinition& d) {
                        "implicit steps have a fraction of flip, pic or apic; leave it out, or write {flip: 0.95}"};
   }
   if (method.average_dilatation) {
-    return MethodFault{"method.average_dilatation", "implicit steps have one stress in a cell, which does not lock; leave it out"};
+    return MethodFault{"method.average_dilatation",
+                       "implicit steps have one stress in a cell, which does not lock; leave it out"};
   }
   if (method.average_stress.value_or(false)) {
     return MethodFault{"method.average_stress", "implicit steps have one stress in a cell as it is; leave it out"};
   }
   if (method.damping.any()) return MethodFault{"method.damping", "implicit steps have none; leave it out"};
   if (method.sweeps && !(*method.sweeps >= 1 && *method.sweeps <= kMostImplicitSweeps)) {
-    return MethodFault{"method.sweeps", fmt::format("{} is not possible; write 1 to {}, or leave it out for as many as the pressure "
-                                                    "on tools asks for",
-                                                    *method.sweeps, kMostImplicitSweeps)};
+    return MethodFault{"method.sweeps",
+                       fmt::format("{} is not possible; write 1 to {}, or leave it out for as many as the pressure "
+                                   "on tools asks for",
+                                   *method.sweeps, kMostImplicitSweeps)};
   }
   return {};
 }
@@ -45,9 +48,11 @@ Fault material_part(const SimulationDefinition& d) {
     const MaterialDefinition& material = find_material(d, body);
     if (const std::string text = refused_implicit(material); !text.empty()) return MethodFault{"materials", text};
     if (body.field != d.bodies.front().field) {
-      return MethodFault{"contact.pairs", fmt::format("'{}' has a law of contact with another body; with implicit steps bodies move as one where they "
-                                                      "meet: leave the pair out, or use method.update: usavg",
-                                                      body.name)};
+      return MethodFault{
+          "contact.pairs",
+          fmt::format("'{}' has a law of contact with another body; with implicit steps bodies move as one where they "
+                      "meet: leave the pair out, or use method.update: usavg",
+                      body.name)};
     }
   }
   return {};
@@ -63,10 +68,13 @@ Fault wall_part(const SimulationDefinition& d) {
       return MethodFault{key, "implicit steps have no waves to absorb; write fixed or slip"};
     }
     if (wall.kind == WallKind::periodic) {
-      return MethodFault{key, "implicit steps have no periodic axes; write symmetry or slip, or use method.update: usavg"};
+      return MethodFault{key,
+                         "implicit steps have no periodic axes; write symmetry or slip, or use method.update: usavg"};
     }
     if (wall.kind == WallKind::frictional && !plain(wall.friction)) {
-      return MethodFault{key, "implicit steps have one coefficient of friction and no adhesion; leave static_friction and adhesion out"};
+      return MethodFault{
+          key,
+          "implicit steps have one coefficient of friction and no adhesion; leave static_friction and adhesion out"};
     }
   }
   return {};
@@ -75,9 +83,11 @@ Fault wall_part(const SimulationDefinition& d) {
 Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) {
   const std::string key = fmt::format("rigid_bodies.{}", body.name);
   if (body.free) {
-    return MethodFault{key, "implicit steps have bodies that move as they are told; leave free out, or use method.update: usavg"};
+    return MethodFault{
+        key, "implicit steps have bodies that move as they are told; leave free out, or use method.update: usavg"};
   }
-  if (body.particles) return MethodFault{key, "implicit steps meet bodies at points of their surface; leave normals: particles out"};
+  if (body.particles)
+    return MethodFault{key, "implicit steps meet bodies at points of their surface; leave normals: particles out"};
   if (body.sides == Sides::two) {
     return MethodFault{key, "with implicit steps the two sides of a body share nodes; write sides: one"};
   }
@@ -88,11 +98,15 @@ Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) 
       return MethodFault{key, "implicit steps have friction or stick; write one of these in contact.pairs"};
     }
     if (law.static_friction || !law.adhesion.is_zero()) {
-      return MethodFault{key, "implicit steps have one coefficient of friction and no adhesion; leave static_friction and adhesion out"};
+      return MethodFault{
+          key,
+          "implicit steps have one coefficient of friction and no adhesion; leave static_friction and adhesion out"};
     }
     if (first && !same_law(*first, law)) {
-      return MethodFault{key, fmt::format("it has another law with '{}' than with '{}'; with implicit steps a body has one law with all soil",
-                                          other.name, d.bodies.front().name)};
+      return MethodFault{
+          key, fmt::format(
+                   "it has another law with '{}' than with '{}'; with implicit steps a body has one law with all soil",
+                   other.name, d.bodies.front().name)};
     }
     first = law;
   }

@@ -1,5 +1,5 @@
-// What particles of soil and cells of the implicit step give to each other, a chunk of particles at a time. A particle's box is
-// cut by the faces of the cells into up to eight pieces (implicit/soil_cells.hpp).
+// What particles of soil and cells of the implicit step give to each other, a chunk of particles at a time. A
+// particle's box is cut by the faces of the cells into up to eight pieces (implicit/soil_cells.hpp).
 #include <algorithm>
 #include <array>
 
@@ -155,7 +155,8 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
 }
 
 template <class Geometry, class T>
-void take(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places, double dt) {
+void take(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places,
+          double dt) {
   using W = Wide<T>;
   using Eight = typename Rows<T>::Eight;
   constexpr int kNumbers = 18;
@@ -184,7 +185,7 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
         if (Geometry::kDim == 3 || k != 1) l[k][k] -= excess;
       }
       const W r0 = W(kRoot3) * number(9), r1 = W(kRoot2) * number(10), r2 = W(kRoot6) * number(11);
-      const Symmetric3<W> cauchy{-(r0 + r1 - r2), -(r0 - r1 - r2),          -(r0 + r2 + r2),
+      const Symmetric3<W> cauchy{-(r0 + r1 - r2),         -(r0 - r1 - r2),         -(r0 + r2 + r2),
                                  W(-kRoot2) * number(12), W(-kRoot2) * number(13), W(-kRoot2) * number(14)};
       const auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
       const auto tau_old = Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p);

@@ -19,8 +19,8 @@ using mpm_kernel::SoilBlock;
 using mpm_kernel::SoilFlow;
 using mpm_kernel::SoilGroup;
 using mpm_kernel::SoilMask;
-using mpm_kernel::SoilPlaces;
 using mpm_kernel::SoilNode;
+using mpm_kernel::SoilPlaces;
 using mpm_kernel::WallRow;
 
 template <class T>
@@ -119,7 +119,8 @@ struct GroupNodes {
 
 /// Rates of strain, mapped, from the velocities of the nodes.
 template <class T>
-inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T>& nodes, Eight<T> (&e)[6]) {
+inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T>& nodes,
+                                                Eight<T> (&e)[6]) {
   Eight<T> xx{}, yy{}, zz{}, yz{}, xz{}, xy{};
   for (int n = 0; n < kCellNodes; ++n) {
     const Eight<T> x = load(group.gradient[0][n]), y = load(group.gradient[1][n]), z = load(group.gradient[2][n]);
@@ -141,9 +142,11 @@ inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const
 
 /// What changes `d` of the stresses do to the velocities of the nodes.
 template <class T>
-inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks, const Eight<T> (&d)[6], GroupNodes<T>& nodes) {
+inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks,
+                                                  const Eight<T> (&d)[6], GroupNodes<T>& nodes) {
   const Eight<T> f = load(group.push);
-  const Eight<T> p = static_cast<T>(kRoot3) * d[0], q = static_cast<T>(kRoot6) * d[2], h = static_cast<T>(kRoot2) * d[1];
+  const Eight<T> p = static_cast<T>(kRoot3) * d[0], q = static_cast<T>(kRoot6) * d[2],
+                 h = static_cast<T>(kRoot2) * d[1];
   const Eight<T> sx = f * (p + h - q), sy = f * (p - h - q), sz = f * (p + q + q);
   const Eight<T> g = f * static_cast<T>(kRoot2), yz = g * d[3], xz = g * d[4], xy = g * d[5];
   for (int n = 0; n < kCellNodes; ++n) {
@@ -163,9 +166,9 @@ inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, con
   }
 }
 
-/// How a cell's rate of strain answers to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers that
-/// a velocity along the axis gives to e. What stands for it, a number for e_N and one for e_T, must not be less in any
-/// direction: sweeps would make energy where a node is light.
+/// How a cell's rate of strain answers to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers
+/// that a velocity along the axis gives to e. What stands for it, a number for e_N and one for e_T, must not be less in
+/// any direction: sweeps would make energy where a node is light.
 template <class T>
 class CellAnswer {
  public:
@@ -215,8 +218,8 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
       for (int k = 0; k < 3; ++k) store(group.gradient[k][e], none);
       continue;
     }
-    // Hat functions along the axes: a + s x, a = 1 and s = -1 at the lower node, 0 and 1 at the upper one; 1 along y in a
-    // plane.
+    // Hat functions along the axes: a + s x, a = 1 and s = -1 at the lower node, 0 and 1 at the upper one; 1 along y in
+    // a plane.
     const bool up[3] = {(e & 1) != 0, !plane && (e & 2) != 0, (e >> (plane ? 1 : 2) & 1) != 0};
     T a[3], s[3];
     for (int k = 0; k < 3; ++k) {
@@ -246,8 +249,8 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
 template <class T>
 constexpr T kStill = T(1e-12);  ///< a rate below which there is no direction [1/s]
 
-/// Largest and smallest principal deviators over sqrt(J2): their difference and sum, for a deviator of the direction -b,
-/// compression positive, of the length bt.
+/// Largest and smallest principal deviators over sqrt(J2): their difference and sum, for a deviator of the direction
+/// -b, compression positive, of the length bt.
 template <class T>
 struct Extremes {
   Eight<T> difference, sum;
@@ -258,7 +261,8 @@ struct Extremes {
     const Eight<T> xx = d - q, yy = -d - q, zz = q + q, g = static_cast<T>(kRoot2) * over;
     const Eight<T> yz = g * b[3], xz = g * b[4], xy = g * b[5];  // tension positive, as b itself
     const Eight<T> j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-    // cos(3 a) of the Lode angle a in [0, 60 degrees]; cos(a) = cos(2/3 acos(t)) with t = cos(3 a / 2), a polynomial to 2e-7.
+    // cos(3 a) of the Lode angle a in [0, 60 degrees]; cos(a) = cos(2/3 acos(t)) with t = cos(3 a / 2), a polynomial to
+    // 2e-7.
     const Eight<T> cosine = least_of<T>(all<T>(1), largest<T>(all<T>(-1), static_cast<T>(2.598076211353316) * j3));
     const Eight<T> t = root<T>(static_cast<T>(0.5) * (static_cast<T>(1) + cosine));
     Eight<T> c = all<T>(-0.002103491008);
@@ -285,7 +289,8 @@ inline __attribute__((always_inline)) void find_surface(SoilGroup<T>& group, con
   const Eight<T> factor = static_cast<T>(1.4142135623730951) * extremes.per_shear(sine, lode);
   store(group.strength, factor * load(group.cohesion));
   store(group.slope, static_cast<T>(kRoot3) * factor * sine);
-  store(group.theta, static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, lode));
+  store(group.theta,
+        static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, lode));
 }
 
 template <class T>
@@ -297,8 +302,9 @@ Eight<T> length(const Eight<T> (&b)[6]) {
 
 /// The stress r for which e = w r + b, with the law; `bt`: |b_T|.
 template <class T>
-inline __attribute__((always_inline)) void solve(const SoilGroup<T>& group, Eight<T> own_n, Eight<T> own_t, Eight<T> theta,
-                                                 const Eight<T> (&b)[6], Eight<T> bt, Eight<T> (&r)[6]) {
+inline __attribute__((always_inline)) void solve(const SoilGroup<T>& group, Eight<T> own_n, Eight<T> own_t,
+                                                 Eight<T> theta, const Eight<T> (&b)[6], Eight<T> bt,
+                                                 Eight<T> (&r)[6]) {
   const Eight<T> strength = load(group.strength), slope = load(group.slope), none{}, still = all<T>(kStill<T>);
   const Eight<T> over_n = static_cast<T>(1) / own_n, over_t = static_cast<T>(1) / own_t;
   const Eight<T> apex = slope > none ? -strength / largest<T>(slope, still) : load(group.least);
@@ -459,11 +465,20 @@ void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out)
 }  // namespace
 
 const mpm_kernel::SweepFamily& soil_sweeps() {
-  static const mpm_kernel::SweepFamily kFamily{
-      {&prepare<double>, &project<double>, &push<double>, &sweep<double>, &meet<double>, &flow<double>,
-       {soil_passes<double>(2), soil_passes<double>(3)}},
-      {&prepare<float>, &project<float>, &push<float>, &sweep<float>, &meet<float>, &flow<float>,
-       {soil_passes<float>(2), soil_passes<float>(3)}}};
+  static const mpm_kernel::SweepFamily kFamily{{&prepare<double>,
+                                                &project<double>,
+                                                &push<double>,
+                                                &sweep<double>,
+                                                &meet<double>,
+                                                &flow<double>,
+                                                {soil_passes<double>(2), soil_passes<double>(3)}},
+                                               {&prepare<float>,
+                                                &project<float>,
+                                                &push<float>,
+                                                &sweep<float>,
+                                                &meet<float>,
+                                                &flow<float>,
+                                                {soil_passes<float>(2), soil_passes<float>(3)}}};
   return kFamily;
 }
 

@@ -1,0 +1,67 @@
+// What implicit steps go together with (simulation/implicit_rules.hpp): each refusal names its key. 0.1 s.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace implicit_rules_test {
+
+constexpr const char* kScene = R"(
+geometry: plane_strain
+gravity: [0, -9.81]
+grid: {cell: 0.05, min: [0, 0], max: [0.4, 0.4]}
+time: {end: 0.1, sync: 0.01}
+method: {update: implicit}
+materials: [{name: sand, law: drucker_prager, density: 1600, young: 1 MPa, poisson: 0.3, friction_angle: 30 deg}]
+bodies: [{name: bed, material: sand, shape: {box: {min: [0, 0], max: [0.4, 0.2]}}}]
+rigid_bodies: [{name: tool, shape: {box: {size: [0.15, 0.1]}}, pose: {position: [0.2, 0.3]}, friction: 0.3}]
+boundaries: {all: slip}
+)";
+
+std::string refusal(const std::vector<std::string>& overrides) {
+  try {
+    mpm::Simulation run(mpm::build(mpm::parse_scene(kScene, "scene", overrides)), {1});
+  } catch (const mpm::Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ImplicitRules, AcceptWhatTheyHave) {
+  EXPECT_EQ(refusal({}), "accepted");
+  EXPECT_EQ(refusal({"method.transfer=apic"}), "accepted");
+  EXPECT_EQ(refusal({"method.transfer=pic", "method.sweeps=20", "method.precision=single"}), "accepted");
+  EXPECT_EQ(refusal({"materials.sand.law=mohr_coulomb", "boundaries.z_min={friction: 0.5}"}), "accepted");
+}
+
+TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"method.shape=cpdi"}, "method.shape: "},
+      {{"method.transfer={xpic: 2}"}, "method.transfer: "},
+      {{"method.transfer={flip: 0.6, xpic: 2, every: 5}"}, "method.transfer: "},
+      {{"method.average_stress=true"}, "method.average_stress: "},
+      {{"method.average_dilatation=true"}, "method.average_dilatation: "},
+      {{"method.damping={grid: 2 1/s}"}, "method.damping: "},
+      {{"method.sweeps=0"}, "method.sweeps: 0 is not possible"},
+      {{"method.sweeps=5", "method.update=usavg"}, "method.sweeps: explicit steps have none"},
+      {{"boundaries.x_min=absorbing"}, "boundaries.x_min: "},
+      {{"boundaries={x: periodic}"}, "boundaries.x_min: "},
+      {{"sleep={}"}, "sleep: "},
+      {{"contact={method: nodes}"}, "contact.method: "},
+      {{"rigid_bodies.tool.sides=two"}, "rigid_bodies.tool: "},
+      {{"rigid_bodies.tool.free={mass: 2}"}, "rigid_bodies.tool: "},
+      {{"loads=[{body_force: {acceleration: [1, 0]}}]"}, "loads: "},
+      {{"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
+       "materials: implicit steps are made for soil of drucker_prager and mohr_coulomb, not for 'sand' (neo_hookean)"},
+      {{"geometry=plane_stress"}, "geometry: "}};
+  for (const auto& [overrides, start] : cases) {
+    const std::string text = refusal(overrides);
+    EXPECT_EQ(text.substr(0, start.size()), start) << overrides.front() << ": " << text;
+  }
+}
+
+}  // namespace implicit_rules_test

@@ -1,0 +1,168 @@
+// Implicit steps of soil: against limit loads, at rest, as a column that falls, and whether they keep momentum, energy
+// and every bit. Cost: 7 s.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mpm/math/constants.hpp"
+#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/study/tool_force/run.hpp"
+#include "scene_run.hpp"
+
+namespace implicit_test {
+
+namespace tool_force = mpm::study::tool_force;
+
+/// Sand of 30 degrees without dilation, from x = 0, z = 0 to `width` and `height` [m].
+std::string sand(double width, double height, const std::string& rest) {
+  return fmt::format(
+      "geometry: plane_strain\ngravity: [0, -9.81]\nmethod: {{update: implicit}}\n"
+      "materials: [{{name: sand, law: mohr_coulomb, density: 1600, young: 2 MPa, poisson: 0.3, friction_angle: 30 deg, "
+      "cohesion: 0}}]\n"
+      "bodies: [{{name: sand, material: sand, shape: {{box: {{min: [0, 0], max: [{}, {}]}}}}}}]\n{}",
+      width, height, rest);
+}
+
+mpm::Simulation start(const std::string& text, const std::vector<std::string>& overrides = {}, int threads = 1) {
+  return mpm::Simulation(mpm::build(mpm::parse_scene(text, "implicit", overrides)), {threads});
+}
+
+double largest(const mpm::Simulation& run, const std::string& field) {
+  const std::vector<double> values = verification::field(run, field);
+  return *std::max_element(values.begin(), values.end());
+}
+
+// Bounds of limit analysis (mpm/study/limit_loads.hpp), in the mean over five places of the blade within a cell: within
+// a tenth with 4 cells of depth, in steps of 10 ms, which explicit steps need 20 of.
+TEST(ImplicitStep, BladesMeetTheirLimitLoads) {
+  for (const char* name : {"blade_flat", "blade_chisel", "blade_rough", "blade_flat_0"}) {
+    const auto row = tool_force::run_places(tool_force::find_problem(name), 4.0, {}, {"method={update: implicit}"});
+    ASSERT_EQ(row.status, "ok") << row.message;
+    ASSERT_EQ(row.places, 5);
+    EXPECT_GT(row.over_exact, row.answer.lower / row.answer.upper - 0.1) << name;
+    EXPECT_LT(row.over_exact, 1.1) << name;
+    EXPECT_LT(row.spread, 0.1) << name;
+    EXPECT_LT(std::abs(row.imbalance), 0.015) << name;
+    RecordProperty(name, fmt::format("{:.3f} {:.3f}", row.over_exact, row.spread));
+  }
+}
+
+// With 8 cells and sweeps enough, within a twentieth of exact.
+TEST(ImplicitStep, ABladeOfEightCells) {
+  const auto row = tool_force::run_places(tool_force::find_problem("blade_flat"), 8.0, {},
+                                          {"method={update: implicit, sweeps: 40}"});
+  ASSERT_EQ(row.status, "ok") << row.message;
+  EXPECT_NEAR(row.over_exact, 1.0, 0.05);
+  EXPECT_LT(row.spread, 0.06);
+}
+
+// What rests does not creep: in 9 s by less than a thousandth of a cell (exact: not at all). In the second before, the
+// solve finds the stresses that its cells hold.
+TEST(ImplicitStep, SoilAtRestStays) {
+  for (const char* step : {"0.005", "0.02"}) {
+    mpm::Simulation run = start(sand(0.8, 0.4,
+                                     "grid: {cell: 0.05, min: [0, 0], max: [0.8, 0.6]}\ntime: {end: 10, sync: 0.02}\n"
+                                     "boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.577}}\n"),
+                                {"bodies.sand.initial=geostatic", std::string("time.step=") + step});
+    const std::vector<double> before = verification::field(run, "z");
+    verification::run_until(run, 10.0);
+    const std::vector<double> after = verification::field(run, "z");
+    for (std::size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(after[i], before[i], 5e-5) << step;
+  }
+}
+
+// G. Lube et al. (2005): (d - d0) / d0 = 1.2 a to a = 1.8 and 1.9 a^(2/3) for higher columns; 16 cells on d0.
+TEST(ImplicitStep, ColumnsRunOutAsLubeSaw) {
+  constexpr double kWidth = 0.4;
+  for (const double aspect : {1.0, 2.0}) {
+    mpm::Simulation run = start(sand(kWidth, aspect * kWidth,
+                                     "grid: {cell: 0.025, min: [0, 0], max: [4, 1.2]}\ntime: {end: 2.5, sync: 0.01}\n"
+                                     "boundaries: {x_min: symmetry, z_min: {friction: 0.577}}\n"));
+    const mpm::EnergyReport before = run.state().energy;
+    verification::run_until(run, 2.5);
+    const double published = aspect < 1.8 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3.0);
+    const double run_out = largest(run, "x") / kWidth - 1.0;
+    EXPECT_NEAR(run_out / published, 1.0, 0.15) << aspect;
+    RecordProperty(fmt::format("aspect_{}", aspect), fmt::format("{:.3f}", run_out / published));
+    // It gains no energy; what particles lose to the grid in long steps has no account.
+    const mpm::EnergyReport after = run.state().energy;
+    const double fallen = before.of("potential") - after.of("potential");
+    EXPECT_LT(after.balance() - before.balance(), 1e-3 * fallen) << aspect;
+    EXPECT_GT(after.balance() - before.balance(), -0.05 * fallen) << aspect;
+  }
+}
+
+/// A box that is pressed into sand beside a wall, and pushed through it.
+std::string pushed() {
+  return sand(
+      0.8, 0.3,
+      "grid: {cell: 0.05, min: [0, 0], max: [0.8, 0.6]}\ntime: {end: 1, sync: 0.01}\n"
+      "boundaries: {x_min: fixed, x_max: slip, z_min: {friction: 0.5}}\n"
+      "rigid_bodies: [{name: tool, shape: {box: {size: [0.2, 0.4]}}, pose: {position: [0.12, 0.5]}, friction: 0.3, "
+      "motion: {velocity: [\"0.2 * min(1, max(0, t - 0.2) / 0.1)\", \"-max(0, min(1, (0.2 - t) / 0.02))\"]}}]\n");
+}
+
+// Momentum is that of the impulses, each found by itself, to round-off, whatever has converged; what the tool does is
+// what plastic flow, friction, the transfer and the step itself have taken (balance of energy).
+TEST(ImplicitStep, KeepsMomentumAndEnergy) {
+  for (const char* sweeps : {"3", "40"}) {
+    mpm::Simulation run = start(pushed(), {std::string("method.sweeps=") + sweeps});
+    const mpm::EnergyReport before = run.state().energy;
+    verification::run_until(run, 0.5);
+    EXPECT_LT(run.state().audit.residual, 1e-12) << sweeps;
+    const mpm::EnergyReport after = run.state().energy;
+    EXPECT_GT(after.of("contact_work"), 5.0);
+    EXPECT_NEAR(after.balance() - before.balance(), 0.0, 0.03 * after.of("contact_work")) << sweeps;
+    EXPECT_LT(after.balance() - before.balance(), 1e-3 * after.of("contact_work")) << sweeps;
+  }
+}
+
+// The same bits for any number of threads.
+TEST(ImplicitStep, DoesNotDependOnThreads) {
+  for (const char* precision : {"double", "single"}) {
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 3, 8}) {
+      mpm::Simulation run = start(pushed(), {std::string("method.precision=") + precision}, threads);
+      verification::run_until(run, 0.22);
+      hashes.push_back(run.memory_hash());
+    }
+    for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes.front()) << precision;
+  }
+}
+
+// A run that goes on from a checkpoint has the stresses, and the impulses of contacts and walls, that begin the next
+// solve.
+TEST(ImplicitStep, GoesOnFromACheckpoint) {
+  const std::string file = (std::filesystem::temp_directory_path() / "implicit_step.h5").string();
+  mpm::Simulation whole = start(pushed());
+  verification::run_until(whole, 0.2);
+  mpm::save_checkpoint(file, whole, {"", pushed(), {}});
+  verification::run_until(whole, 0.4);
+  mpm::Simulation part = start(pushed());
+  mpm::load_checkpoint(file, part, pushed());
+  verification::run_until(part, 0.4);
+  EXPECT_EQ(part.memory_hash(), whole.memory_hash());
+  std::filesystem::remove(file);
+}
+
+// A step lasts as it is told, whatever waves do: soil a hundred times as stiff takes as many, and meets a blade as soft
+// soil does, by its strength and weight.
+TEST(ImplicitStep, StiffnessCostsNothing) {
+  std::vector<std::uint64_t> steps;
+  for (const char* young : {"0.5 MPa", "50 MPa"}) {
+    const auto row = tool_force::run_row(tool_force::find_problem("blade_flat_0"), 4.0, {},
+                                         {"method={update: implicit}", std::string("materials.soil.young=") + young});
+    ASSERT_EQ(row.status, "ok") << row.message;
+    steps.push_back(row.steps);
+    EXPECT_GT(row.over_exact, row.answer.lower / row.answer.upper - 0.1) << young;
+    EXPECT_LT(row.over_exact, 1.1) << young;
+  }
+  EXPECT_EQ(steps[0], steps[1]);
+}
+
+}  // namespace implicit_test

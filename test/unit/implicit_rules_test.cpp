@@ -40,27 +40,35 @@ TEST(ImplicitRules, AcceptWhatTheyHave) {
 
 TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"method.shape=cpdi"}, "method.shape: "},
-      {{"method.transfer={xpic: 2}"}, "method.transfer: "},
-      {{"method.transfer={flip: 0.6, xpic: 2, every: 5}"}, "method.transfer: "},
-      {{"method.average_stress=true"}, "method.average_stress: "},
-      {{"method.average_dilatation=true"}, "method.average_dilatation: "},
-      {{"method.damping={grid: 2 1/s}"}, "method.damping: "},
-      {{"method.sweeps=0"}, "method.sweeps: 0 is not possible"},
-      {{"method.sweeps=5", "method.update=usavg"}, "method.sweeps: explicit steps have none"},
-      {{"boundaries.x_min=absorbing"}, "boundaries.x_min: "},
-      {{"boundaries={x: periodic}"}, "boundaries.x_min: "},
+      {{"method.shape=cpdi"}, "method: shape: "},
+      {{"method.transfer={xpic: 2}"}, "method: transfer: "},
+      {{"method.transfer={flip: 0.6, xpic: 2, every: 5}"}, "method: transfer: "},
+      {{"method.average_stress=true"}, "method: average_stress: "},
+      {{"method.average_dilatation=true"}, "method: average_dilatation: "},
+      {{"method.damping={grid: 2 1/s}"}, "method: damping: "},
+      {{"method.sweeps=0"}, "method: sweeps: 0 is not possible"},
+      {{"method.sweeps=5", "method.update=usavg"}, "method: sweeps: explicit steps have none"},
+      {{"boundaries.x_min=absorbing"}, "boundaries: x_min: "},
+      {{"boundaries={x: periodic}"}, "boundaries: x_min: "},
       {{"sleep={}"}, "sleep: "},
-      {{"contact={method: nodes}"}, "contact.method: "},
-      {{"rigid_bodies.tool.sides=two"}, "rigid_bodies.tool: "},
-      {{"rigid_bodies.tool.free={mass: 2}"}, "rigid_bodies.tool: "},
+      {{"contact={method: nodes}"}, "contact: method: "},
+      {{"rigid_bodies.tool.sides=two"}, "rigid_bodies: tool: "},
+      {{"rigid_bodies.tool.free={mass: 2}"}, "rigid_bodies: tool: "},
       {{"loads=[{body_force: {acceleration: [1, 0]}}]"}, "loads: "},
       {{"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
        "materials: implicit steps are made for soil of drucker_prager and mohr_coulomb, not for 'sand' (neo_hookean)"},
+      {{"method.sweeps=1001"}, "method: sweeps: 1001 is not possible"},
+      {{"time.step=0.2"}, "time: step: 0.2 s is too long"},
+      {{"contact={pairs: [{between: [bed, tool], friction: 0.3, adhesion: 1 kPa}]}"},
+       "rigid_bodies.tool: implicit steps have one coefficient"},
+      {{"contact={edges: blunt}"}, "contact: edges: "},
+      {{"rigid_bodies.tool.shape={plane: {normal: [0, -1]}}"},
+       "rigid_bodies: tool: implicit steps meet bodies at points"},
+      {{"target={real_time: 1}"}, "target: "},
       {{"geometry=plane_stress"}, "geometry: "}};
   for (const auto& [overrides, start] : cases) {
     const std::string text = refusal(overrides);
-    EXPECT_EQ(text.substr(0, start.size()), start) << overrides.front() << ": " << text;
+    EXPECT_NE(text.find(start), std::string::npos) << overrides.front() << ": " << text;
   }
 }
 

@@ -101,6 +101,10 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   d.rigid_bodies = {tool};
   d.body_forces = {{"", {mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start)}}};
   d.tractions = {pulsing_pressure("body")};
+  if (method.update == mpm::UpdateScheme::implicit) {  // which has no loads
+    d.body_forces.clear();
+    d.tractions.clear();
+  }
   mpm::Simulation simulation(d, {1, isa});
   for (int i = 0; i < 3; ++i) simulation.advance();
   const long before = allocations;
@@ -184,6 +188,7 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
           mpm::MethodDefinition method;
           method.shape = static_cast<mpm::ShapeKind>(shape);
           method.update = static_cast<mpm::UpdateScheme>(update);
+          if (method.update == mpm::UpdateScheme::implicit) continue;  // below
           method.transfer = {kind, 1.0, 3};
           if (mpm::method_fault(method, geometry)) continue;
           EXPECT_EQ(allocations_of_a_period(4, material, method, mpm::best_isa(), geometry),
@@ -192,6 +197,19 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
               << ", " << mpm::kTransferNames[static_cast<int>(kind)];
         }
       }
+    }
+  }
+}
+
+TEST(Allocation, ImplicitStepsDoNotAllocate) {
+  for (const mpm::paths::Specimen& specimen : mpm::paths::zoo()) {
+    if (!std::holds_alternative<mpm::DruckerPragerDefinition>(specimen.material.law)) continue;
+    for (const mpm::GeometryKind geometry : {mpm::GeometryKind::plane_strain, mpm::GeometryKind::solid}) {
+      mpm::MethodDefinition method;
+      method.update = mpm::UpdateScheme::implicit;
+      EXPECT_EQ(allocations_of_a_period(4, specimen.material, method, mpm::best_isa(), geometry),
+                allocations_of_a_period(16, specimen.material, method, mpm::best_isa(), geometry))
+          << specimen.material.name << ", " << mpm::geometry_name(geometry);
     }
   }
 }

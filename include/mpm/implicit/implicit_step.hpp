@@ -32,6 +32,8 @@ namespace mpm {
 
 inline constexpr const char* kImplicitName = "implicit";  ///< of the module
 inline constexpr double kImplicitTravel = 0.5;            ///< cells that a particle may move in a step
+inline constexpr double kImplicitStep = 0.01;             ///< of a scene that names none [s]
+inline constexpr double kLongestImplicitStep = 0.1;       ///< [s]
 
 struct ImplicitSettings {
   GeometryKind geometry = GeometryKind::solid;

@@ -49,7 +49,7 @@ class SoilCells {
   /// After the blocks in use have changed.
   void rebuild();
   /// Finds the cells from the particles, with the stress that they have as the one to begin with. `nodes`: of
-  /// SoilGrid::nodes() and one more, with inverse masses.
+  /// SoilGrid::numbers(), with inverse masses.
   void gather(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt);
   /// Gives the particles the strain of the step, and the stresses that were found.
   void take(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt);
@@ -57,7 +57,7 @@ class SoilCells {
   /// The groups of cells in a block.
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
   Group* groups(int block) { return groups_.data() + begin_[block]; }
-  const mpm_kernel::SoilMask<T>* masks(int block) const { return masks_[block].data(); }
+  const mpm_kernel::SoilMask<T>* masks() const { return masks_.data(); }
 
   /// What stresses give to the components of velocity that walls hold [N s], in the order of kWallNames.
   void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
@@ -67,12 +67,6 @@ class SoilCells {
  private:
   using Sums = mpm_kernel::SoilSums<T>;
   using Motion = mpm_kernel::SoilMotion<T>;
-  /// A component of a node's velocity that a wall holds, in a cell.
-  struct HeldEntry {
-    int group, lane, corner;
-    std::uint8_t wall, axis;
-    double gradient[3];  ///< of the node's shape function [1/m]
-  };
   /// The particles of a body, as they lie now.
   mpm_kernel::SoilParticles<T> view_of(int body) const;
   /// pass(first, last, corner, places) for the particles of a body in an owner's block.
@@ -80,7 +74,7 @@ class SoilCells {
   void each_owner(int body, int owner, Pass&& pass);
   void make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block);
   void make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt, int group, int lane,
-                 mpm_kernel::SoilPlaces<T>& places, mpm_kernel::SoilMask<T>& mask);
+                 mpm_kernel::SoilPlaces<T>& places);
   void find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, int group);
   /// The place of a body's first cell in a block, or -1.
   int& slot(int body, int block) { return slots_[static_cast<std::size_t>(body) * blocks_ + block]; }
@@ -96,8 +90,7 @@ class SoilCells {
   std::vector<Motion> motion_;  ///< of each place
   std::vector<int> begin_;      ///< of each block, its first group
   std::vector<Group> groups_;
-  std::vector<std::vector<HeldEntry>> held_;                 ///< of each block
-  std::vector<std::vector<mpm_kernel::SoilMask<T>>> masks_;  ///< of each block
+  std::vector<mpm_kernel::SoilMask<T>> masks_;  ///< of each group
   double least_density_ = 0.0;
 };
 

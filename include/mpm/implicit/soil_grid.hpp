@@ -2,8 +2,9 @@
 // which order, and which nodes a wall holds along which axes. It changes with the blocks in use, when particles are
 // sorted.
 //
-// A node is numbered block * nodes_per_block + node, as in NodalField; one more stands for no node. Every block in use
-// is swept, so that its number among the blocks that are swept is its number in the grid.
+// A node is numbered block * nodes_per_block + node, as in NodalField. After them each block has a number that stands
+// for no node, one each, since blocks that are swept at once write there. Every block in use is swept, so that its
+// number among the blocks that are swept is its number in the grid.
 #pragma once
 
 #include <array>
@@ -27,7 +28,10 @@ class SoilGrid {
 
   const Grid& grid() const { return grid_; }
   int nodes() const { return grid_.blocks.size() * grid_.layout.nodes_per_block(); }
-  /// Number of the node above a block's node by the bits of `corner` along the grid's axes; nodes() if there is none.
+  /// With those that stand for none.
+  int numbers() const { return nodes() + grid_.blocks.size(); }
+  int no_node(int block) const { return nodes() + block; }
+  /// Number of the node above a block's node by the bits of `corner` along the grid's axes; no_node() if there is none.
   int corner(int block, const std::array<int, 3>& local, int corner) const;
   /// Block and number along each axis inside it of the node at `at`, numbers along the grid's axes from the domain's
   /// first node on; false where no block is in use.

@@ -43,8 +43,9 @@ class ToolRows {
   ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> laws, const SoilGrid& grid,
            const ToolRowSettings& settings);
 
-  /// Puts particles that lie in a body on its surface.
-  void put_out(std::vector<ParticleSet>& sets) const;
+  /// Puts particles that lie in a body on its surface. Whether one has come so far beyond the block that it was sorted
+  /// into that they have to be sorted.
+  bool put_out(std::vector<ParticleSet>& sets, Grid& grid) const;
   /// Finds the rows of the step from `start` [s] on, with the impulses that they begin with, and gives these to the
   /// nodes.
   /// @throws FunctionError for a law of contact that is not possible
@@ -70,6 +71,8 @@ class ToolRows {
   void serialise(StateArchive& archive);
 
  private:
+  /// The same of one body, and the particles of a set in an owner's block.
+  bool put_out(const RigidBody& body, ParticleSet& set, Grid& grid, int owner) const;
   /// What is known of a row beside what sweeps need.
   struct Place {
     int body, sample, block;
@@ -96,13 +99,13 @@ class ToolRows {
   const SoilGrid& grid_;
   ToolRowSettings settings_;
   std::vector<std::vector<SurfaceSample>> samples_;  ///< of each body
-  std::vector<double> reach_;  ///< of each body: distance of the farthest point from its origin [m]
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
   std::vector<Row> rows_, found_;
   std::vector<Place> places_, found_places_;
   std::vector<HeldPart> held_;
   std::vector<int> begin_, next_;
+  std::vector<double> areas_;  ///< of each body
 };
 
 }  // namespace mpm

@@ -86,6 +86,8 @@ class Module {
 
   // Actions beside the grid.
 
+  /// Called when particles and bodies have moved, before it is decided whether particles are sorted.
+  virtual void step_ended() {}
   /// Called at the end of a sync period; `time` [ns]. @throws Error when a body is at a forbidden place
   virtual void at_sync(std::int64_t /*time*/) {}
 

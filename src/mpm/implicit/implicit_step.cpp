@@ -44,7 +44,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   }
   Ranks ranks(Hook) const override { return {Rank::implicit}; }
 
-  void step_begun(StepContext&) override { tools_.put_out(sets_); }
+  void step_ended() override { sorts_ = tools_.put_out(sets_, grid_); }
+  bool needs_sort() const override { return sorts_; }
 
   void momentum_updated(StepContext& context) override {
     if (soil_grid_.rebuild()) cells_.rebuild();
@@ -66,6 +67,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     list.push_back(light_);
   }
   void energies(EnergyReport& report) const override {
+    report.leave_open();  // of the change of velocity particles lose a part to the grid
     for (const ContactLedger& ledger : tools_.ledgers()) ledger.energies(report);
     walls_.energies(report);
     report.add("implicit_step", NamedEnergy::Kind::dissipated, taken_);
@@ -94,7 +96,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     return {cells_.groups(block),
             tools_.count(block) > 0 ? tools_.rows(block) : nullptr,
             walls_.count(block) > 0 ? walls_.rows(block) : nullptr,
-            cells_.masks(block),
+            cells_.masks(),
             cells_.count(block),
             tools_.count(block),
             walls_.count(block)};
@@ -103,8 +105,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   void load() {
     const GridLayout& layout = grid_.layout;
     const int per_block = layout.nodes_per_block(), dim = layout.dim();
-    nodes_.resize(soil_grid_.nodes() + 1);
-    nodes_.back() = Node{};
+    nodes_.resize(soil_grid_.numbers());
+    std::fill(nodes_.begin() + soil_grid_.nodes(), nodes_.end(), Node{});
     soil_grid_.shares().at_once(settings_.threads, [&](int block) {
       for (int n = 0; n < per_block; ++n) {
         Node& node = nodes_[block * per_block + n];
@@ -128,8 +130,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
     const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
     const double least = std::max<double>(kLeastSweeps, std::ceil(kPerSecond * dt - 1e-9));
-    return std::max(static_cast<int>(kKept * sweeps_),
-                    static_cast<int>(std::clamp<double>(needed, least, kMostSweeps)));
+    const double wanted = std::isfinite(needed) ? std::max(needed, least) : least;
+    return std::max(static_cast<int>(kKept * sweeps_), static_cast<int>(std::min<double>(wanted, kMostSweeps)));
   }
 
   void meet() {
@@ -206,6 +208,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   double lightest_ = 0.0;  ///< [kg]
   ImpulseAccount light_;   ///< what light nodes were not given
   double taken_ = 0.0;     ///< by the step itself [J]
+  bool sorts_ = false;     ///< whether a particle was put back beyond the block that it is sorted into
   std::int32_t sweeps_ = 0;
   double change_ = 0.0;
 };

@@ -100,9 +100,13 @@ void SoilCells<T>::rebuild() {
   }
   if (used > sums_.size()) sums_.resize(used + used / 16);
   if (sums_.size() > motion_.size()) motion_.resize(sums_.size());
+  // As many groups as there may be: one of each colour in a block. What is not used is not touched.
+  const std::size_t most = (used / per_block) << grid.layout.dim();
+  if (most > groups_.capacity()) {
+    groups_.reserve(most + most / 16);
+    masks_.reserve(most + most / 16);
+  }
   begin_.resize(blocks_ + 1);
-  held_.resize(std::max<std::size_t>(held_.size(), blocks_));
-  masks_.resize(held_.size());
 }
 
 template <class T>
@@ -145,8 +149,8 @@ void SoilCells<T>::each_owner(int body, int owner, Pass&& pass) {
   mpm_kernel::SoilPlacesOf<T> places{};
   for (int n = 0; n < grid.blocks.neighbour_count(); ++n) {
     const int at = slot(body, grid.blocks.neighbours(owner)[n]);
-    places.sums[n] = sums_.data() + at;
-    places.motion[n] = motion_.data() + at;
+    places.sums[n] = at < 0 ? nullptr : sums_.data() + at;
+    places.motion[n] = at < 0 ? nullptr : motion_.data() + at;
   }
   int corner[3] = {};
   for (int k = 0; k < grid.layout.dim(); ++k) {
@@ -185,16 +189,14 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
   begin_[0] = 0;
   for (int block = 0; block < blocks_; ++block) begin_[block + 1] += begin_[block];
   const std::size_t size = begin_[blocks_];
-  if (size > groups_.capacity()) groups_.reserve(size + size / 8);
   groups_.resize(size);
+  masks_.resize(size);
   grid_.shares().at_once(threads_, [&](int block) { make_groups(table, nodes, dt, block); });
 }
 
 template <class T>
 void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt,
                                int block) {
-  held_[block].clear();
-  masks_[block].clear();
   int next = begin_[block];
   if (next == begin_[block + 1]) return;
   const GridLayout& layout = grid_.grid().layout;
@@ -202,22 +204,13 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
   const CellOrder& order = cell_order(dim);
   mpm_kernel::SoilPlaces<T> places{};
   for (int k = 0; k < dim; ++k) places.inverse_cell[layout.axis(k)] = static_cast<T>(layout.inverse_cell(k));
-  mpm_kernel::SoilMask<T> mask;
-  std::size_t held = 0;
   const auto finish = [&](int lanes) {
     Group& group = groups_[next];
-    for (int lane = lanes; lane < mpm_kernel::kGroupCells; ++lane)
-      copy_without_soil(group, places, lane, grid_.nodes());
-    table.prepare(group, places, nodes.data(), group.mask >= 0 ? &mask : nullptr);
-    if (group.mask >= 0) {
-      group.mask = static_cast<int>(masks_[block].size());
-      masks_[block].push_back(mask);
+    for (int lane = lanes; lane < mpm_kernel::kGroupCells; ++lane) {
+      copy_without_soil(group, places, lane, grid_.no_node(block));
     }
+    table.prepare(group, places, nodes.data(), group.mask >= 0 ? &masks_[next] : nullptr);
     table.project(group);
-    for (; held < held_[block].size(); ++held) {
-      HeldEntry& entry = held_[block][held];
-      for (int k = 0; k < 3; ++k) entry.gradient[k] = static_cast<double>(group.gradient[k][entry.corner][entry.lane]);
-    }
     ++next;
   };
   for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
@@ -228,13 +221,10 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
       for (int i = order.begin[c]; i < order.begin[c + 1]; ++i) {
         const int n = order.numbers[i];
         if (!(sums_[at + n].volume > 0.0)) continue;
-        if (lanes == 0) {
-          std::fill_n(&mask.free[0][0][0], sizeof(mask) / sizeof(T), T(1));
-          groups_[next].mask = -1;
-        }
+        if (lanes == 0) groups_[next].mask = -1;
         std::array<int, 3> local{};
         for (int k = dim - 1, rest = n; k >= 0; --k, rest /= kBlockEdge) local[k] = rest % kBlockEdge;
-        make_cell(sums_[at + n], body, block, local, dt, next, lanes, places, mask);
+        make_cell(sums_[at + n], body, block, local, dt, next, lanes, places);
         groups_[next].place[lanes] = at + n;
         if (++lanes == mpm_kernel::kGroupCells) {
           finish(lanes);
@@ -248,21 +238,20 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
 
 template <class T>
 void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt,
-                             int number, int lane, mpm_kernel::SoilPlaces<T>& places, mpm_kernel::SoilMask<T>& mask) {
+                             int number, int lane, mpm_kernel::SoilPlaces<T>& places) {
   Group& group = groups_[number];
   const int corners = 1 << grid_.grid().layout.dim();
   const double per_volume = 1.0 / sums.volume;
   for (int i = 0; i < 6; ++i) places.mean[i][lane] = static_cast<T>(per_volume * sums.place[i]);
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
-    const int node = e < corners ? grid_.corner(block, local, e) : grid_.nodes();
+    const int node = e < corners ? grid_.corner(block, local, e) : grid_.no_node(block);
     group.node[e][lane] = node;
     if (!grid_.held(node)) continue;
+    mpm_kernel::SoilMask<T>& mask = masks_[number];
+    if (group.mask < 0) std::fill_n(&mask.free[0][0][0], sizeof(mask) / sizeof(T), T(1));
+    group.mask = number;
     for (int k = 0; k < 3; ++k) {
-      const std::uint8_t wall = grid_.holder(node, k);
-      if (wall == SoilGrid::kFree) continue;
-      mask.free[k][e][lane] = T(0);
-      group.mask = 0;
-      held_[block].push_back({number, lane, e, wall, static_cast<std::uint8_t>(k), {}});
+      if (grid_.holder(node, k) != SoilGrid::kFree) mask.free[k][e][lane] = T(0);
     }
   }
   const ImplicitSoil& soil = bodies_[body].soil;
@@ -288,17 +277,24 @@ void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::a
 
 template <class T>
 void SoilCells<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) const {
-  for (int block = 0; block < blocks_; ++block) {
-    for (const HeldEntry& held : held_[block]) {
-      const Group& group = groups_[held.group];
+  for (const Group& group : groups_) {
+    if (group.mask < 0) continue;
+    for (int lane = 0; lane < mpm_kernel::kGroupCells; ++lane) {
+      if (group.place[lane] < 0) continue;
       double r[6];
-      for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][held.lane]);
+      for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][lane]);
       const Symmetric3<double> s = tensor_of(r);
-      const double* g = held.gradient;
-      const double rows[3] = {s.xx * g[0] + s.xy * g[1] + s.xz * g[2], s.xy * g[0] + s.yy * g[1] + s.yz * g[2],
-                              s.xz * g[0] + s.yz * g[1] + s.zz * g[2]};
-      walls[held.wall][held.axis] -=
-          static_cast<double>(group.push[held.lane]) * rows[held.axis];  // tension is positive in s
+      for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
+        const int node = group.node[e][lane];
+        if (!grid_.held(node)) continue;
+        const double x = group.gradient[0][e][lane], y = group.gradient[1][e][lane], z = group.gradient[2][e][lane];
+        const double force[3] = {s.xx * x + s.xy * y + s.xz * z, s.xy * x + s.yy * y + s.yz * z,
+                                 s.xz * x + s.yz * y + s.zz * z};  // a unit of volume, with tension positive
+        for (int k = 0; k < 3; ++k) {
+          const std::uint8_t wall = grid_.holder(node, k);
+          if (wall != SoilGrid::kFree) walls[wall][k] -= static_cast<double>(group.push[lane]) * force[k];
+        }
+      }
     }
   }
 }

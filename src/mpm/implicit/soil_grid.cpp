@@ -64,7 +64,7 @@ void SoilGrid::find_upper() {
 void SoilGrid::find_held() {
   const GridLayout& layout = grid_.layout;
   const int per_block = layout.nodes_per_block();
-  holders_.assign(3 * static_cast<std::size_t>(nodes() + 1), kFree);
+  holders_.assign(3 * static_cast<std::size_t>(numbers()), kFree);
   frictional_.clear();
   for (int b = 0; b < grid_.blocks.size(); ++b) {
     for (int face = 0; face < 2 * layout.dim(); ++face) {
@@ -105,7 +105,7 @@ int SoilGrid::corner(int block, const std::array<int, 3>& local, int corner) con
     number = kBlockEdge * number + at;
   }
   const int found = upper_[(static_cast<std::size_t>(block) << dim) + above];
-  return found < 0 ? nodes() : found * grid_.layout.nodes_per_block() + number;
+  return found < 0 ? no_node(block) : found * grid_.layout.nodes_per_block() + number;
 }
 
 bool SoilGrid::find(const std::array<int, 3>& at, int& block, std::array<int, 3>& local) const {

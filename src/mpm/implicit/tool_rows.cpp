@@ -1,7 +1,10 @@
 #include "mpm/implicit/tool_rows.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "mpm/grid/each_share.hpp"
 
 namespace mpm {
 namespace {
@@ -30,37 +33,55 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
     kept_.push_back(
         {std::vector<double>(3 * samples_.back().size(), 0.0), std::vector<double>(samples_.back().size(), 0.0)});
   }
+  std::size_t points = 0;
+  for (const auto& samples : samples_) points += samples.size();
+  // So that no step allocates when a tool meets more soil.
+  for (auto* rows : {&rows_, &found_}) rows->reserve(points);
+  for (auto* places : {&places_, &found_places_}) places->reserve(points);
+  held_.reserve(points);
 }
 
 template <class T>
-void ToolRows<T>::put_out(std::vector<ParticleSet>& sets) const {
-  const GridLayout& layout = grid_.grid().layout;
-  const int dim = layout.dim();
+bool ToolRows<T>::put_out(std::vector<ParticleSet>& sets, Grid& grid) const {
+  std::atomic<bool> far{false};
   for (const RigidBody* body : bodies_) {
-    const Box bounds = body->world_bounds();
-    const Pose& pose = body->pose();
-    for (ParticleSet& set : sets) {
-      const int count = set.awake();
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-      for (int p = 0; p < count; ++p) {
-        Vec3 at = Vec3::Zero();
-        bool inside = true;
-        for (int k = 0; k < dim; ++k) {
-          const int axis = layout.axis(k);
-          at[axis] = set.x[k][p];
-          inside = inside && at[axis] > bounds.min[axis] && at[axis] < bounds.max[axis];
-        }
-        if (!inside) continue;
-        SurfacePoint point;
-        if (!body->surface().within(pose.orientation.conjugate() * (at - pose.position), 0.0, point)) continue;
-        const Vec3 out = pose.orientation * point.normal;
-        for (int k = 0; k < dim; ++k) {
-          const double moved = set.x[k][p] - point.distance * out[layout.axis(k)], cells = layout.in_cells(k, moved);
-          if (cells > set.lowest[k] && cells < set.highest[k]) set.x[k][p] = moved;
-        }
+    grid.shares.at_once(settings_.threads, [&](int owner) {
+      for (ParticleSet& set : sets) {
+        if (put_out(*body, set, grid, owner)) far.store(true, std::memory_order_relaxed);
       }
+    });
+  }
+  return far;
+}
+
+template <class T>
+bool ToolRows<T>::put_out(const RigidBody& body, ParticleSet& set, Grid& grid, int owner) const {
+  const GridLayout& layout = grid.layout;
+  const int dim = layout.dim(), place = grid.first_owner + owner;
+  const std::array<int, 3>& block = grid.blocks.block(grid.blocks.owner_block(owner));
+  const Box bounds = body.world_bounds();
+  const Pose& pose = body.pose();
+  bool far = false;
+  for (std::uint32_t p = set.begin[place]; p < set.begin[place + 1]; ++p) {
+    Vec3 at = Vec3::Zero();
+    bool inside = true;
+    for (int k = 0; k < dim; ++k) {
+      const int axis = layout.axis(k);
+      at[axis] = set.x[k][p];
+      inside = inside && at[axis] > bounds.min[axis] && at[axis] < bounds.max[axis];
+    }
+    SurfacePoint point;
+    if (!inside || !body.surface().within(pose.orientation.conjugate() * (at - pose.position), 0.0, point)) continue;
+    const Vec3 out = pose.orientation * point.normal;
+    for (int k = 0; k < dim; ++k) {
+      const double moved = set.x[k][p] - point.distance * out[layout.axis(k)], cells = layout.in_cells(k, moved);
+      if (cells > set.lowest[k] && cells < set.highest[k]) set.x[k][p] = moved;
+      const int node = GridLayout::nearest(layout.in_cells(k, set.x[k][p])) - kBlockEdge * block[k];
+      if (node < 0 || node >= kBlockEdge) grid.loose[owner] = 1;
+      far = far || node < -1 || node > kBlockEdge;
     }
   }
+  return far;
 }
 
 template <class T>
@@ -84,7 +105,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   // Nodes without material do not count: what is left of the weights sums to one.
   double weights[mpm_kernel::kCellNodes] = {}, carrying = 0.0, mass = 0.0;
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
-    row.node[e] = e < corners ? grid_.corner(block, local, e) : grid_.nodes();
+    row.node[e] = e < corners ? grid_.corner(block, local, e) : grid_.no_node(block);
     const double im = static_cast<double>(nodes[row.node[e]].inverse_mass);
     if (!(im > 0.0)) continue;
     weights[e] = 1.0;
@@ -202,7 +223,8 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
   }
   std::vector<int>& touched = next_;
   touched.assign(bodies_.size(), 0);
-  std::vector<double> areas(bodies_.size(), 0.0);
+  areas_.assign(bodies_.size(), 0.0);
+  const double across = planar(settings_.geometry) ? settings_.across : 1.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
     const Place& place = places_[i];
@@ -225,10 +247,10 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     kept.own[place.sample] = static_cast<double>(row.own);
     if (impulse.squaredNorm() > 0.0) {
       ++touched[place.body];
-      areas[place.body] += place.area;
+      areas_[place.body] += place.area * across;
     }
   }
-  for (std::size_t b = 0; b < bodies_.size(); ++b) ledgers_[b].end_step(dt, touched[b], areas[b]);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) ledgers_[b].end_step(dt, touched[b], areas_[b]);
 }
 
 template <class T>

@@ -31,6 +31,11 @@ void WallRows<T>::find(std::vector<Node>& nodes, double dt) {
   rows_.clear();
   wall_of_.clear();
   ids_.clear();
+  const std::size_t most = grid_.frictional().size();
+  rows_.reserve(most);
+  wall_of_.reserve(most);
+  ids_.reserve(most);
+  kept_.reserve(most);
   for (const SoilGrid::WallNode& at : grid_.frictional()) {
     Node& node = nodes[at.node];
     if (!(node.inverse_mass > T(0))) continue;

@@ -52,6 +52,10 @@ double least_bytes(const Scene& scene) {
 WaveStep wave_step(const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
   WaveStep step;
+  if (definition.method.update == UpdateScheme::implicit) {  // which resolves none
+    step.dt = std::numeric_limits<double>::infinity();
+    return step;
+  }
   for (const MaterialDefinition& material : definition.materials) {
     const auto is_used = [&](const BodyDefinition& body) { return body.material == material.name; };
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(), is_used)) continue;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mpm/implicit/implicit_step.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/simulation/implicit_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 
@@ -133,6 +135,10 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_boundaries(root, scene);
   read_loads(root, scene);
   read_time_and_output(root, scene);
+  if (definition.method.update == UpdateScheme::implicit && !definition.time.step) {
+    definition.time.step = kImplicitStep;
+    scene.choices.emplace_back("time.step", fmt::format("{:g} s, as implicit steps last", kImplicitStep));
+  }
   read_sleep(root, scene);
   read_transport(root, scene);
   read_cracks(root, scene);
@@ -144,6 +150,14 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
         fmt::format("constants.{}: nothing in the scene uses it; use it, or leave it out", name));
   }
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);
+  if (const auto fault = implicit_fault(definition)) {
+    // By its section, and what follows it in the key.
+    const std::string section = fault->key.substr(0, fault->key.find('.'));
+    const std::string rest =
+        section == fault->key ? fault->text : fault->key.substr(section.size() + 1) + ": " + fault->text;
+    const auto named = root.find(section);
+    (named ? *named : root.at("method")).fail(rest);
+  }
   if (asked) choose_method(*asked, load_method_costs(), scene);
   scene.text = asked ? with_method(source.root(), definition.method) : source.dump();
   return scene;

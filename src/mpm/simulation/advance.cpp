@@ -50,6 +50,7 @@ int steps_until_look(double before, double now, int steps, double dt, double cfl
 }  // namespace
 
 void Simulation::State::see_courant(double dt, const StepLimit& found) {
+  if (definition.method.update == UpdateScheme::implicit) return;  // no wave is resolved
   steps.courant = std::max(steps.courant, dt * definition.time.cfl / found.dt);
 }
 
@@ -61,6 +62,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
+  for (Module* module : modules.list()) module->step_ended();
   ++steps.steps;
   steps.dt_last = dt;
   steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
@@ -91,7 +93,8 @@ bool Simulation::State::step(double start, double dt, bool more) {
 }
 
 void Simulation::State::run_period() {
-  const double cfl = definition.time.cfl;
+  // What implicit steps resolve is motion, whose limit is its own.
+  const double cfl = definition.method.update == UpdateScheme::implicit ? 1.0 : definition.time.cfl;
   const double begin = static_cast<double>(time) * kNanosecond;
   const double period = static_cast<double>(definition.time.sync) * kNanosecond, end = begin + period;
   limit = step_limit(previous_limit, material_limit);

@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "mpm/implicit/implicit_step.hpp"
 #include "mpm/implicit/soil_law.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "rigid_contacts.hpp"
 #include "state.hpp"
 
@@ -88,6 +91,15 @@ Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) 
   }
   if (body.particles)
     return MethodFault{key, "implicit steps meet bodies at points of their surface; leave normals: particles out"};
+  for (const int axis : axes_of(d.geometry)) {
+    const Box bounds = body.surface->bounds();
+    if (std::isfinite(bounds.min[axis]) && std::isfinite(bounds.max[axis])) continue;
+    return MethodFault{
+        key,
+        "implicit steps meet bodies at points of their surface, which has to end; write a box that is as large as "
+        "the scene needs"};
+  }
+  if (body.reach > 0.0) return MethodFault{key, "implicit steps have no reach; leave it out"};
   if (body.sides == Sides::two) {
     return MethodFault{key, "with implicit steps the two sides of a body share nodes; write sides: one"};
   }
@@ -114,11 +126,19 @@ Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) 
 }
 
 Fault other_part(const SimulationDefinition& d) {
+  if (d.time.step && *d.time.step > kLongestImplicitStep) {
+    return MethodFault{"time.step",
+                       fmt::format("{:g} s is too long for an implicit step; write {:g} s or less, such as 10 ms",
+                                   *d.time.step, kLongestImplicitStep)};
+  }
+  if (!d.contact.sharp_edges) return MethodFault{"contact.edges", "implicit steps have one kind of edge; leave it out"};
   if (d.contact.method == ContactMethod::nodes) {
     return MethodFault{"contact.method", "implicit steps meet bodies at points of their surface; leave it out"};
   }
   const auto leave_out = [](const char* key) {
-    return MethodFault{key, "implicit steps do not have it yet; leave it out, or use method.update: usavg"};
+    return MethodFault{key,
+                       "implicit steps do not have it yet; leave it out, write off where the key has that, or use "
+                       "method.update: usavg"};
   };
   if (!d.conditions.empty()) return leave_out("conditions");
   if (!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()) return leave_out("loads");

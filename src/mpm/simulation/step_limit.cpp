@@ -36,8 +36,6 @@ class SceneStep final : public Module {
   double dt_;
 };
 
-constexpr double kImplicitStep = 0.01;  ///< of a scene that names none [s]
-
 /// Largest shear of the domains that particles awake have now, at most the limit.
 template <int Dim>
 double largest_shear(const ParticleSet& set, const GridLayout& layout, int threads) {
@@ -82,11 +80,11 @@ void add_step_limit(RunParts& parts) {
   if (step) parts.modules.add(std::make_unique<SceneStep>(*step));
 }
 
-// No wave limits an implicit step; what moves may cross a part of a cell in it.
+// No wave limits an implicit step; what moves, or falls from now on, may cross a part of a cell in it.
 StepLimit Simulation::State::survey_motion() const {
   StepLimit limit;
   limit.by = modules.find(kImplicitName);
-  double fastest = 0.0;
+  const double cell = layout().smallest_cell(), gravity = definition.gravity.norm();
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet& set = sets[s];
     const int count = set.awake();
@@ -101,16 +99,20 @@ StepLimit Simulation::State::survey_motion() const {
           finite = finite && std::isfinite(speed);
         }
       });
-      if (!finite) most = std::numeric_limits<double>::quiet_NaN();
-      const double rate = layout().inverse_cell(k) * most;
-      if (rate <= fastest) continue;
-      fastest = rate;
+      if (!finite) {
+        limit.part = static_cast<int>(s);
+        limit.dt = std::numeric_limits<double>::quiet_NaN();
+        return limit;
+      }
+      if (most < limit.speed) continue;
       limit.part = static_cast<int>(s);
       limit.speed = most;
-      if (!finite) break;
     }
   }
-  if (fastest != 0.0) limit.dt = kImplicitTravel / fastest;
+  // speed dt + gravity dt^2 = the way
+  const double way = kImplicitTravel * cell;
+  const double root = std::sqrt(limit.speed * limit.speed + 4.0 * gravity * way);
+  if (limit.speed + root > 0.0) limit.dt = 2.0 * way / (limit.speed + root);
   return limit;
 }
 
@@ -140,7 +142,8 @@ StepLimit Simulation::State::step_limit(const StepLimit& before, const StepLimit
   const PeriodAhead period{1e-9 * static_cast<double>(time), 1e-9 * static_cast<double>(definition.time.sync),
                            definition.time.cfl, layout().smallest_cell()};
   StepLimit limit = now;
-  const bool known = now.by != nullptr && before.by != nullptr;  // some material is awake
+  // Some material is awake, and its waves set the limit.
+  const bool known = now.by != nullptr && before.by != nullptr && definition.method.update != UpdateScheme::implicit;
   const double trend = known ? std::clamp(now.dt / before.dt, kMostForeseen, 1.0) : 1.0;
   limit.dt *= trend;
   limit.foreseen = trend < kWorthTelling;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "mpm/grid/grid_layout.hpp"
 #include "mpm/kernel/soil_cells.hpp"
+#include "mpm/kernel/soil_lanes.hpp"
 #include "mpm/kernel/stress.hpp"
 
 namespace mpm {
@@ -15,8 +15,7 @@ using mpm_kernel::SoilParticles;
 using mpm_kernel::SoilPlacesOf;
 using mpm_kernel::SoilSums;
 
-constexpr double kRoot2 = 0.70710678118654752, kRoot3 = 0.57735026918962576, kRoot6 = 0.40824829046386302;
-constexpr double kThinnest = 1e-6;   ///< part of a box: a piece that is thinner is none
+constexpr double kThinnest = 1e-5;   ///< part of a box: a piece that is thinner is none
 constexpr double kDensest = 0.02;    ///< logarithmic volume: the most that is remembered of soil that is too dense
 constexpr double kMostStrain = 0.2;  ///< of volume, that a step may give a particle
 constexpr int kChunk = 64;
@@ -59,8 +58,9 @@ void each_piece(const SoilParticles<T>& set, int p, const int* corner, Visit&& v
   for (int k = 0; k < Dim; ++k) {
     cuts[k] = cut((set.x[k][p] - set.origin[k]) * set.inverse_cell[k] - corner[k], set.half[k]);
   }
-  static_assert(kBlockEdge == 4);
-  const auto block_of = [](int cell) { return std::clamp((cell + kBlockEdge) >> 2, 0, 2); };
+  static_assert(mpm_kernel::kTileEdge - 2 * mpm_kernel::kTileMargin == 4,
+                "the numbers below are of blocks of four nodes");
+  const auto block_of = [](int cell) { return std::clamp((cell + 4) >> 2, 0, 2); };
   for (int a = 0; a < cuts[0].count; ++a) {
     const int x = cuts[0].cell[a];
     for (int b = 0; b < cuts[1].count; ++b) {

@@ -3,16 +3,19 @@
 #include <cmath>
 
 #include "mpm/kernel/soil_cells.hpp"
+#include "mpm/kernel/soil_lanes.hpp"
 
 namespace mpm {
 
 // soil_particles.cpp
 template <class T>
 mpm_kernel::SoilPasses<T> soil_passes(int axes);
+// soil_contacts.cpp
+template <class T>
+void meet_contacts(const mpm_kernel::SoilBlock<T>& block, mpm_kernel::SoilNode<T>* nodes);
 
 namespace {
 
-using mpm_kernel::ContactRow;
 using mpm_kernel::kCellNodes;
 using mpm_kernel::kGroupCells;
 using mpm_kernel::SoilBlock;
@@ -21,101 +24,6 @@ using mpm_kernel::SoilGroup;
 using mpm_kernel::SoilMask;
 using mpm_kernel::SoilNode;
 using mpm_kernel::SoilPlaces;
-using mpm_kernel::WallRow;
-
-template <class T>
-struct Lanes {
-  typedef T Eight __attribute__((vector_size(8 * sizeof(T)), aligned(sizeof(T)), may_alias));
-  typedef T Four __attribute__((vector_size(4 * sizeof(T)), aligned(sizeof(T)), may_alias));
-};
-template <class T>
-using Eight = typename Lanes<T>::Eight;
-template <class T>
-using Four = typename Lanes<T>::Four;
-
-constexpr double kRoot2 = 0.70710678118654752, kRoot3 = 0.57735026918962576, kRoot6 = 0.40824829046386302;
-
-template <class T>
-Eight<T> load(const T* from) {
-  return *reinterpret_cast<const Eight<T>*>(from);
-}
-template <class T>
-void store(T* to, Eight<T> v) {
-  *reinterpret_cast<Eight<T>*>(to) = v;
-}
-
-/// Velocities and inverse masses of eight nodes, a node a lane.
-template <class T>
-struct Corners {
-  Eight<T> x, y, z, m;
-};
-
-template <class T>
-inline __attribute__((always_inline)) Corners<T> load(const SoilNode<T>* nodes, const int* n) {
-  const auto pair = [&](int a, int b) {
-    const Four<T> low = *reinterpret_cast<const Four<T>*>(nodes[n[a]].v);
-    const Four<T> high = *reinterpret_cast<const Four<T>*>(nodes[n[b]].v);
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-  };
-  const Eight<T> a = pair(0, 4), b = pair(1, 5), c = pair(2, 6), d = pair(3, 7);
-  const Eight<T> ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-  const Eight<T> cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
-  const Eight<T> up_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-  const Eight<T> up_cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
-  return {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15),
-          __builtin_shufflevector(up_ab, up_cd, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(up_ab, up_cd, 2, 3, 10, 11, 6, 7, 14, 15)};
-}
-
-template <class T>
-inline __attribute__((always_inline)) void store(SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
-  const Eight<T> xy = __builtin_shufflevector(c.x, c.y, 0, 8, 1, 9, 4, 12, 5, 13);
-  const Eight<T> up_xy = __builtin_shufflevector(c.x, c.y, 2, 10, 3, 11, 6, 14, 7, 15);
-  const Eight<T> zm = __builtin_shufflevector(c.z, c.m, 0, 8, 1, 9, 4, 12, 5, 13);
-  const Eight<T> up_zm = __builtin_shufflevector(c.z, c.m, 2, 10, 3, 11, 6, 14, 7, 15);
-  const Eight<T> q[4] = {__builtin_shufflevector(xy, zm, 0, 1, 8, 9, 4, 5, 12, 13),
-                         __builtin_shufflevector(xy, zm, 2, 3, 10, 11, 6, 7, 14, 15),
-                         __builtin_shufflevector(up_xy, up_zm, 0, 1, 8, 9, 4, 5, 12, 13),
-                         __builtin_shufflevector(up_xy, up_zm, 2, 3, 10, 11, 6, 7, 14, 15)};
-  for (int k = 0; k < 4; ++k) {
-    *reinterpret_cast<Four<T>*>(nodes[n[k]].v) = __builtin_shufflevector(q[k], q[k], 0, 1, 2, 3);
-    *reinterpret_cast<Four<T>*>(nodes[n[k + 4]].v) = __builtin_shufflevector(q[k], q[k], 4, 5, 6, 7);
-  }
-}
-
-template <class T>
-using Truth = decltype(Eight<T>{} < Eight<T>{});
-
-template <class T>
-Eight<T> all(double value) {
-  return Eight<T>{} + static_cast<T>(value);
-}
-template <class T>
-Eight<T> largest(Eight<T> a, Eight<T> b) {
-  return a > b ? a : b;
-}
-template <class T>
-Eight<T> least_of(Eight<T> a, Eight<T> b) {
-  return a < b ? a : b;
-}
-template <class T>
-Eight<T> root(Eight<T> a) {
-  alignas(64) T v[8];
-  store(v, a);
-  for (int l = 0; l < 8; ++l) v[l] = std::sqrt(v[l]);
-  return load(v);
-}
-
-/// Nodes 0 to 7 of the cells of a group, a cell a lane.
-template <class T>
-struct GroupNodes {
-  Corners<T> of[kCellNodes];
-
-  GroupNodes(const SoilGroup<T>& group, const SoilNode<T>* nodes) {
-    for (int e = 0; e < kCellNodes; ++e) of[e] = load(nodes, group.node[e]);
-  }
-};
 
 /// Rates of strain, mapped, from the velocities of the nodes.
 template <class T>
@@ -357,57 +265,6 @@ inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const Soil
   find_surface(group, b, bt);
 }
 
-/// The impulse of Coulomb's law where an impulse l makes the velocity u + own l: no approach, no pull.
-template <class T>
-void coulomb(const T* u, const T* normal, T own, T friction, T* l) {
-  const T un = u[0] * normal[0] + u[1] * normal[1] + u[2] * normal[2];
-  const T ln = -un / own;
-  if (ln <= T(0)) {
-    l[0] = l[1] = l[2] = T(0);
-    return;
-  }
-  T along = T(0);
-  for (int a = 0; a < 3; ++a) {
-    l[a] = -(u[a] - un * normal[a]) / own;
-    along += l[a] * l[a];
-  }
-  const T most = friction * ln;
-  const T part = friction >= T(0) && along > most * most ? most / std::sqrt(along) : T(1);
-  for (int a = 0; a < 3; ++a) l[a] = part * l[a] + ln * normal[a];
-}
-
-template <class T>
-void relax(ContactRow<T>& row, SoilNode<T>* nodes) {
-  T u[3] = {-row.velocity[0], -row.velocity[1], -row.velocity[2]}, l[3];
-  for (int e = 0; e < kCellNodes; ++e) {
-    for (int a = 0; a < 3; ++a) u[a] += row.weight[a][e] * nodes[row.node[e]].v[a];
-  }
-  for (int a = 0; a < 3; ++a) u[a] -= row.own * row.impulse[a];
-  coulomb(u, row.normal, row.own, row.friction, l);
-  T d[3];
-  for (int a = 0; a < 3; ++a) {
-    d[a] = l[a] - row.impulse[a];
-    row.impulse[a] = l[a];
-  }
-  for (int e = 0; e < kCellNodes; ++e) {
-    SoilNode<T>& node = nodes[row.node[e]];
-    for (int a = 0; a < 3; ++a) node.v[a] += node.inverse_mass * row.weight[a][e] * d[a];
-  }
-}
-
-template <class T>
-void relax(WallRow<T>& row, SoilNode<T>* nodes) {
-  SoilNode<T>& node = nodes[row.node];
-  T normal[3] = {T(0), T(0), T(0)}, u[3], l[3];
-  normal[row.axis] = row.out;
-  for (int a = 0; a < 3; ++a) u[a] = row.free[a] * (node.v[a] - node.inverse_mass * row.impulse[a]);
-  coulomb(u, normal, node.inverse_mass, row.friction, l);
-  for (int a = 0; a < 3; ++a) {
-    node.v[a] += node.inverse_mass * (l[a] - row.impulse[a]);
-    row.impulse[a] = l[a];
-  }
-}
-
 template <class T>
 void push(const SoilBlock<T>& block, SoilNode<T>* nodes) {
   for (int i = 0; i < block.group_count; ++i) {
@@ -424,15 +281,6 @@ template <class T>
 void sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, bool backwards) {
   for (int i = 0; i < block.group_count; ++i) {
     relax(block.groups[backwards ? block.group_count - 1 - i : i], block.masks, nodes);
-  }
-}
-
-template <class T>
-void meet(const SoilBlock<T>& block, SoilNode<T>* nodes) {
-  constexpr int kPasses = 2;  // rows of a body bind the same nodes
-  for (int i = 0; i < block.wall_count; ++i) relax(block.walls[i], nodes);
-  for (int pass = 0; pass < kPasses; ++pass) {
-    for (int i = 0; i < block.row_count; ++i) relax(block.rows[i], nodes);
   }
 }
 
@@ -469,14 +317,14 @@ const mpm_kernel::SweepFamily& soil_sweeps() {
                                                 &project<double>,
                                                 &push<double>,
                                                 &sweep<double>,
-                                                &meet<double>,
+                                                &meet_contacts<double>,
                                                 &flow<double>,
                                                 {soil_passes<double>(2), soil_passes<double>(3)}},
                                                {&prepare<float>,
                                                 &project<float>,
                                                 &push<float>,
                                                 &sweep<float>,
-                                                &meet<float>,
+                                                &meet_contacts<float>,
                                                 &flow<float>,
                                                 {soil_passes<float>(2), soil_passes<float>(3)}}};
   return kFamily;

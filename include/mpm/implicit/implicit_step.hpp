@@ -1,6 +1,6 @@
-// The implicit step of rigid-plastic soil: velocities at the end of the step for which the stresses of all cells fulfil
-// the law, and all contacts Coulomb's, so that a step may last as long as a controller's period and not as long as a
-// wave takes to cross a cell.
+// The implicit step of soil that is elastic and flows: velocities at the end of the step for which the stresses of all
+// cells fulfil the law, and all contacts Coulomb's, so that a step may last as long as a controller's period and not as
+// long as a wave takes to cross a cell.
 //
 // Unknown are the stresses r of cells, one each, and the impulses l of contacts. Velocities follow from them, so that
 // momentum is exact whatever has been found so far:
@@ -46,7 +46,7 @@ struct ImplicitSettings {
 
 /// A stage and reporter of contact in one. Sets, bodies and grid outlive it. `laws`: of contact, one for each tool.
 struct ImplicitParts {
-  std::vector<SoilBody> bodies;
+  SoilBodies bodies;
   std::vector<ParticleSet>* sets;
   std::vector<RigidBody*> tools;
   std::vector<ContactLaw> laws;

@@ -7,14 +7,14 @@
 // stress of a particle in a step is the mean over its pieces of the cells' stresses. Cells with one stress do not lock,
 // and pressures that alternate from cell to cell have no place in them (doc/implicit.md).
 //
-// Of each body a cell has a stress of its own. Deformation, stress and history of particles are what the explicit laws
+// Of each soil a cell has a stress of its own. Deformation, stress and history of particles are what the explicit laws
 // have (material/drucker_prager.hpp): F, the Kirchhoff stress over initial density, plastic strain, opening and plastic
 // work. The opening may be negative here: soil that few sweeps have left too dense, which gives back a fifth of it in a
 // step.
 //
 // Weak: stress is that of cells, without variation inside them, so that it spreads by up to a cell where material moves
 // through the grid. What a sweep leaves undone is an error of volume or strength, of which the particles remember the
-// volume alone. Source: reference text on implicit steps; the moments are those of a trilinear element.
+// volume alone. Source: Daviet & Bertails-Descoubes (2016) for one stress in a cell; the moments are those of a trilinear element.
 #pragma once
 
 #include <array>
@@ -24,17 +24,18 @@
 #include "mpm/implicit/soil_grid.hpp"
 #include "mpm/implicit/soil_law.hpp"
 #include "mpm/kernel/soil_cells.hpp"
-#include "mpm/material/law.hpp"
-#include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
 
 namespace mpm {
 
-/// A body of soil. The set and its law outlive the cells.
-struct SoilBody {
-  ParticleSet* set;
-  const Law* law;
-  ImplicitSoil soil;
+/// Bodies of soil, and the soils of which they are. The sets outlive the cells.
+struct SoilBodies {
+  struct Body {
+    ParticleSet* set;
+    int soil;  ///< number of its soil
+  };
+  std::vector<Body> list;
+  std::vector<ImplicitSoil> soils;
 };
 
 /// T: precision of the sweeps, that of the particles.
@@ -44,7 +45,7 @@ class SoilCells {
   using Group = mpm_kernel::SoilGroup<T>;
   using Node = mpm_kernel::SoilNode<T>;
 
-  SoilCells(std::vector<SoilBody> bodies, const SoilGrid& grid, GeometryKind geometry, int threads);
+  SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads);
 
   /// After the blocks in use have changed.
   void rebuild();
@@ -61,7 +62,7 @@ class SoilCells {
 
   /// What stresses give to the components of velocity that walls hold [N s], in the order of kWallNames.
   void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
-  /// The least initial density of the bodies [kg/m^3].
+  /// The least initial density of the soils [kg/m^3].
   double least_density() const { return least_density_; }
 
  private:
@@ -73,16 +74,15 @@ class SoilCells {
   template <class Pass>
   void each_owner(int body, int owner, Pass&& pass);
   void make_groups(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt, int block);
-  void make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt, int group, int lane,
+  void make_cell(const Sums& sums, int soil, int block, const std::array<int, 3>& local, double dt, int group, int lane,
                  mpm_kernel::SoilPlaces<T>& places);
   void find_motion(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, int group);
-  /// The place of a body's first cell in a block, or -1.
-  int& slot(int body, int block) { return slots_[static_cast<std::size_t>(body) * blocks_ + block]; }
+  /// The place of a soil's first cell in a block, or -1.
+  int& slot(int soil, int block) { return slots_[static_cast<std::size_t>(soil) * blocks_ + block]; }
 
-  std::vector<SoilBody> bodies_;
+  SoilBodies bodies_;
   std::vector<mpm_kernel::SoilParticles<T>> views_;  ///< in this step
   const SoilGrid& grid_;
-  GeometryKind geometry_;
   int threads_;
   int blocks_ = 0;
   std::vector<int> slots_;

@@ -28,7 +28,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         grid_(*parts.grid),
         sets_(*parts.sets),
         soil_grid_(grid_, settings.walls, settings.threads),
-        cells_(std::move(parts.bodies), soil_grid_, settings.geometry, settings.threads),
+        cells_(std::move(parts.bodies), soil_grid_, settings.threads),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
                {settings.geometry, settings.across, cells_.least_density(), settings.threads}),
         walls_(settings.walls, soil_grid_) {

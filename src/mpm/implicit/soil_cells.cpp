@@ -42,7 +42,7 @@ const CellOrder& cell_order(int dim) {
   return dim == 3 ? kSpace : kPlane;
 }
 
-/// Of the cells of a body in a block.
+/// Of the cells of a soil in a block.
 template <class T>
 int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
   const CellOrder& order = cell_order(dim);
@@ -72,10 +72,10 @@ void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T
 }  // namespace
 
 template <class T>
-SoilCells<T>::SoilCells(std::vector<SoilBody> bodies, const SoilGrid& grid, GeometryKind geometry, int threads)
-    : bodies_(std::move(bodies)), grid_(grid), geometry_(geometry), threads_(threads) {
-  least_density_ = bodies_.front().soil.density;
-  for (const SoilBody& body : bodies_) least_density_ = std::min(least_density_, body.soil.density);
+SoilCells<T>::SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads)
+    : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {
+  least_density_ = bodies_.soils.front().density;
+  for (const ImplicitSoil& soil : bodies_.soils) least_density_ = std::min(least_density_, soil.density);
 }
 
 // A particle's box lies in the blocks around its owner.
@@ -83,15 +83,15 @@ template <class T>
 void SoilCells<T>::rebuild() {
   const Grid& grid = grid_.grid();
   blocks_ = grid.blocks.size();
-  slots_.assign(bodies_.size() * blocks_, -1);
+  slots_.assign(bodies_.soils.size() * blocks_, -1);
   const int per_block = grid.layout.nodes_per_block();
   std::size_t used = 0;
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    const std::uint32_t* begin = &bodies_[body].set->begin[grid.first_owner];
+  for (const SoilBodies::Body& body : bodies_.list) {
+    const std::uint32_t* begin = &body.set->begin[grid.first_owner];
     for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
       if (begin[owner] == begin[owner + 1]) continue;
       for (int n = 0; n < grid.blocks.neighbour_count(); ++n) {
-        int& place = slot(static_cast<int>(body), grid.blocks.neighbours(owner)[n]);
+        int& place = slot(body.soil, grid.blocks.neighbours(owner)[n]);
         if (place >= 0) continue;
         place = static_cast<int>(used);
         used += per_block;
@@ -111,8 +111,8 @@ void SoilCells<T>::rebuild() {
 
 template <class T>
 mpm_kernel::SoilParticles<T> SoilCells<T>::view_of(int body) const {
-  ParticleSet& set = *bodies_[body].set;
-  const ImplicitSoil& soil = bodies_[body].soil;
+  ParticleSet& set = *bodies_.list[body].set;
+  const ImplicitSoil& soil = bodies_.soils[bodies_.list[body].soil];
   const GridLayout& layout = grid_.grid().layout;
   mpm_kernel::SoilParticles<T> view{};
   for (int k = 0; k < layout.dim(); ++k) {
@@ -144,11 +144,11 @@ template <class T>
 template <class Pass>
 void SoilCells<T>::each_owner(int body, int owner, Pass&& pass) {
   const Grid& grid = grid_.grid();
-  const std::uint32_t* begin = &bodies_[body].set->begin[grid.first_owner + owner];
+  const std::uint32_t* begin = &bodies_.list[body].set->begin[grid.first_owner + owner];
   if (begin[0] == begin[1]) return;
   mpm_kernel::SoilPlacesOf<T> places{};
   for (int n = 0; n < grid.blocks.neighbour_count(); ++n) {
-    const int at = slot(body, grid.blocks.neighbours(owner)[n]);
+    const int at = slot(bodies_.list[body].soil, grid.blocks.neighbours(owner)[n]);
     places.sums[n] = at < 0 ? nullptr : sums_.data() + at;
     places.motion[n] = at < 0 ? nullptr : motion_.data() + at;
   }
@@ -162,14 +162,14 @@ void SoilCells<T>::each_owner(int body, int owner, Pass&& pass) {
 template <class T>
 void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt) {
   const Grid& grid = grid_.grid();
-  const int bodies = static_cast<int>(bodies_.size()), per_block = grid.layout.nodes_per_block();
+  const int bodies = static_cast<int>(bodies_.list.size()), per_block = grid.layout.nodes_per_block();
   const auto each_slot = [&](int block, auto&& visit) {
-    for (int body = 0; body < bodies; ++body) {
-      if (const int at = slot(body, block); at >= 0) visit(body, at);
+    for (int soil = 0; soil < static_cast<int>(bodies_.soils.size()); ++soil) {
+      if (const int at = slot(soil, block); at >= 0) visit(at);
     }
   };
   grid_.shares().at_once(threads_, [&](int block) {
-    each_slot(block, [&](int, int at) { std::fill_n(sums_.begin() + at, per_block, Sums{}); });
+    each_slot(block, [&](int at) { std::fill_n(sums_.begin() + at, per_block, Sums{}); });
   });
   views_.clear();
   for (int body = 0; body < bodies; ++body) views_.push_back(view_of(body));
@@ -183,7 +183,7 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
   });
   grid_.shares().at_once(threads_, [&](int block) {
     int groups = 0;
-    each_slot(block, [&](int, int at) { groups += count_groups(sums_.data() + at, grid.layout.dim()); });
+    each_slot(block, [&](int at) { groups += count_groups(sums_.data() + at, grid.layout.dim()); });
     begin_[block + 1] = groups;
   });
   begin_[0] = 0;
@@ -213,8 +213,8 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
     table.project(group);
     ++next;
   };
-  for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
-    const int at = slot(body, block);
+  for (int soil = 0; soil < static_cast<int>(bodies_.soils.size()); ++soil) {
+    const int at = slot(soil, block);
     if (at < 0) continue;
     for (int c = 0; c < 1 << dim; ++c) {
       int lanes = 0;
@@ -224,7 +224,7 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
         if (lanes == 0) groups_[next].mask = -1;
         std::array<int, 3> local{};
         for (int k = dim - 1, rest = n; k >= 0; --k, rest /= kBlockEdge) local[k] = rest % kBlockEdge;
-        make_cell(sums_[at + n], body, block, local, dt, next, lanes, places);
+        make_cell(sums_[at + n], soil, block, local, dt, next, lanes, places);
         groups_[next].place[lanes] = at + n;
         if (++lanes == mpm_kernel::kGroupCells) {
           finish(lanes);
@@ -237,8 +237,8 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
 }
 
 template <class T>
-void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::array<int, 3>& local, double dt,
-                             int number, int lane, mpm_kernel::SoilPlaces<T>& places) {
+void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, const std::array<int, 3>& local,
+                             double dt, int number, int lane, mpm_kernel::SoilPlaces<T>& places) {
   Group& group = groups_[number];
   const int corners = 1 << grid_.grid().layout.dim();
   const double per_volume = 1.0 / sums.volume;
@@ -254,7 +254,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int body, int block, const std::a
       if (grid_.holder(node, k) != SoilGrid::kFree) mask.free[k][e][lane] = T(0);
     }
   }
-  const ImplicitSoil& soil = bodies_[body].soil;
+  const ImplicitSoil& soil = bodies_.soils[number_of_soil];
   const double push = dt * sums.volume, opening = per_volume * sums.opening, left = per_volume * sums.left;
   const double compliance_n = 1.0 / (3.0 * soil.bulk * dt), compliance_t = 1.0 / (2.0 * soil.shear * dt);
   group.push[lane] = static_cast<T>(push);
@@ -326,7 +326,7 @@ void SoilCells<T>::take(const mpm_kernel::SweepTable<T>& table, const std::vecto
   });
   const mpm_kernel::SoilPasses<T>& passes = table.passes[grid.layout.dim() - 2];
   grid.shares.at_once(threads_, [&](int owner) {
-    for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
+    for (int body = 0; body < static_cast<int>(bodies_.list.size()); ++body) {
       each_owner(body, owner, [&](int first, int last, const int* corner, const mpm_kernel::SoilPlacesOf<T>& places) {
         passes.take(views_[body], first, last, corner, places, dt);
       });

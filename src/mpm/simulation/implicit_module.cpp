@@ -16,9 +16,14 @@ void add_implicit(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   if (definition.method.update != UpdateScheme::implicit) return;
   ImplicitParts made;
+  std::vector<std::string> soils;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
-    made.bodies.push_back(
-        {&parts.sets[s], &parts.laws[s], ImplicitSoil(find_material(definition, definition.bodies[s]))});
+    const MaterialDefinition& material = find_material(definition, definition.bodies[s]);
+    const auto known = std::find(soils.begin(), soils.end(), material.name);
+    made.bodies.list.push_back({&parts.sets[s], static_cast<int>(known - soils.begin())});
+    if (known != soils.end()) continue;
+    soils.push_back(material.name);
+    made.bodies.soils.emplace_back(material);
   }
   made.sets = &parts.sets;
   const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);

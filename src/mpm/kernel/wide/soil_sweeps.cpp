@@ -29,17 +29,22 @@ using mpm_kernel::SoilPlaces;
 template <class T>
 inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T>& nodes,
                                                 Eight<T> (&e)[6]) {
-  Eight<T> xx{}, yy{}, zz{}, yz{}, xz{}, xy{};
+  // Of even and odd nodes apart, so that half as many sums wait for each other.
+  Eight<T> part[2][6] = {};
   for (int n = 0; n < kCellNodes; ++n) {
     const Eight<T> x = load(group.gradient[0][n]), y = load(group.gradient[1][n]), z = load(group.gradient[2][n]);
     const Corners<T>& v = nodes.of[n];
-    xx += x * v.x;
-    yy += y * v.y;
-    zz += z * v.z;
-    yz += y * v.z + z * v.y;
-    xz += x * v.z + z * v.x;
-    xy += x * v.y + y * v.x;
+    Eight<T>(&sums)[6] = part[n % 2];
+    sums[0] += x * v.x;
+    sums[1] += y * v.y;
+    sums[2] += z * v.z;
+    sums[3] += y * v.z + z * v.y;
+    sums[4] += x * v.z + z * v.x;
+    sums[5] += x * v.y + y * v.x;
   }
+  Eight<T> whole[6];
+  for (int i = 0; i < 6; ++i) whole[i] = part[0][i] + part[1][i];
+  const auto& [xx, yy, zz, yz, xz, xy] = whole;
   e[0] = static_cast<T>(kRoot3) * (xx + yy + zz);
   e[1] = static_cast<T>(kRoot2) * (xx - yy);
   e[2] = static_cast<T>(kRoot6) * (zz + zz - xx - yy);

@@ -34,6 +34,7 @@ std::string refusal(const std::vector<std::string>& overrides) {
 TEST(ImplicitRules, AcceptWhatTheyHave) {
   EXPECT_EQ(refusal({}), "accepted");
   EXPECT_EQ(refusal({"method.transfer=apic"}), "accepted");
+  EXPECT_EQ(refusal({"rigid_bodies.tool.free={mass: 2}"}), "accepted");
   EXPECT_EQ(refusal({"method.transfer=pic", "method.sweeps=20", "method.precision=single"}), "accepted");
   EXPECT_EQ(refusal({"materials.sand.law=mohr_coulomb", "boundaries.z_min={friction: 0.5}"}), "accepted");
 }
@@ -53,7 +54,6 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"sleep={}"}, "sleep: "},
       {{"contact={method: nodes}"}, "contact: method: "},
       {{"rigid_bodies.tool.sides=two"}, "rigid_bodies: tool: "},
-      {{"rigid_bodies.tool.free={mass: 2}"}, "rigid_bodies: tool: "},
       {{"loads=[{body_force: {acceleration: [1, 0]}}]"}, "loads: "},
       {{"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
        "materials: implicit steps are made for soil of drucker_prager and mohr_coulomb, not for 'sand' (neo_hookean)"},

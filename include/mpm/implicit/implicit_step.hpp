@@ -41,6 +41,7 @@ struct ImplicitSettings {
   std::optional<int> sweeps;  ///< of every step; without it as many as its contacts need
   std::array<WallDefinition, 6> walls;
   int threads = 1;
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   Isa isa = Isa::plain;
 };
 

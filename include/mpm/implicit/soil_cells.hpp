@@ -14,7 +14,8 @@
 //
 // Weak: stress is that of cells, without variation inside them, so that it spreads by up to a cell where material moves
 // through the grid. What a sweep leaves undone is an error of volume or strength, of which the particles remember the
-// volume alone. Source: Daviet & Bertails-Descoubes (2016) for one stress in a cell; the moments are those of a trilinear element.
+// volume alone. Source: Daviet & Bertails-Descoubes (2016) for one stress in a cell; the moments are those of a
+// trilinear element.
 #pragma once
 
 #include <array>

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mpm/contact/contact_ledger.hpp"
+#include "mpm/contact/free_bodies.hpp"
 #include "mpm/implicit/soil_grid.hpp"
 #include "mpm/implicit/surface_samples.hpp"
 #include "mpm/kernel/soil_cells.hpp"
@@ -31,6 +32,7 @@ struct ToolRowSettings {
   double across = 1.0;         ///< thickness of a plane [m]
   double least_density = 0.0;  ///< of the soil, at the start [kg/m^3]
   int threads = 1;
+  Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
 };
 
 template <class T>
@@ -57,11 +59,14 @@ class ToolRows {
   }
   Row* rows(int block) { return rows_.data() + begin_[block]; }
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
+  /// Solves the rows of free bodies, whose velocities change with each.
+  void meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes);
   /// Sum of the impulses' magnitudes [N s].
   double pressed() const;
   /// Mean pressure on the points in contact [Pa].
   double pressure(double dt) const;
-  /// Books the impulses, with the nodes as they are now, and keeps them for the next step.
+  /// Books the impulses, with the nodes as they are now, gives free bodies the velocities that they have left them, and
+  /// keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
   /// What rows give to the components of velocity that walls hold [N s].
   void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
@@ -99,6 +104,7 @@ class ToolRows {
   const SoilGrid& grid_;
   ToolRowSettings settings_;
   std::vector<std::vector<SurfaceSample>> samples_;  ///< of each body
+  FreeBodies free_;
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
   std::vector<Row> rows_, found_;

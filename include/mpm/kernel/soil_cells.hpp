@@ -176,6 +176,8 @@ struct SweepTable {
   void (*sweep)(const SoilBlock<T>&, SoilNode<T>* nodes, bool backwards);
   /// Solves the contacts of a block, walls first.
   void (*meet)(const SoilBlock<T>&, SoilNode<T>* nodes);
+  /// Solves one point of contact.
+  void (*touch)(ContactRow<T>&, SoilNode<T>* nodes);
   void (*flow)(const SoilGroup<T>&, const SoilNode<T>* nodes, SoilFlow<T>&);
   SoilPasses<T> passes[2];  ///< in a plane and in space
 };

@@ -30,7 +30,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         soil_grid_(grid_, settings.walls, settings.threads),
         cells_(std::move(parts.bodies), soil_grid_, settings.threads),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
-               {settings.geometry, settings.across, cells_.least_density(), settings.threads}),
+               {settings.geometry, settings.across, cells_.least_density(), settings.threads, settings.gravity}),
         walls_(settings.walls, soil_grid_) {
     double volume = settings.across;
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
@@ -136,6 +136,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   void meet() {
     soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.meet(block_at(block), nodes_.data()); });
+    tools_.meet_free(table_, nodes_);
   }
 
   void solve(double dt) {

@@ -16,6 +16,11 @@ constexpr double kPresent = 0.2;    ///< of the soil's density, from which on a 
 double at_least_zero(double value) { return std::max(value, 0.0); }
 
 template <class T>
+Vec3 vector_of(const T (&v)[3]) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+template <class T>
 double magnitude(const T (&v)[3]) {
   return std::sqrt(static_cast<double>(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
 }
@@ -25,7 +30,11 @@ double magnitude(const T (&v)[3]) {
 template <class T>
 ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> laws, const SoilGrid& grid,
                       const ToolRowSettings& settings)
-    : bodies_(std::move(bodies)), laws_(std::move(laws)), grid_(grid), settings_(settings) {
+    : bodies_(std::move(bodies)),
+      laws_(std::move(laws)),
+      grid_(grid),
+      settings_(settings),
+      free_(bodies_, settings.gravity) {
   const double cell = grid.grid().layout.smallest_cell();
   for (const RigidBody* body : bodies_) {
     samples_.push_back(sample_surface(body->surface(), settings.geometry, {kApart * cell, kClearance * cell}));
@@ -124,11 +133,14 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
       if (!held) own[a] += weight * weight * static_cast<double>(nodes[row.node[e]].inverse_mass);
     }
   }
-  const double most = std::max({own[0], own[1], own[2]});
+  double most = std::max({own[0], own[1], own[2]});
   if (!(most > 0.0)) return false;
+  if (const FreeMotion* motion = of.free_motion())
+    most += motion->compliance_at(at).cwiseAbs().rowwise().sum().maxCoeff();
   row.own = static_cast<T>(most);
   row.friction = law.stick ? T(-1) : static_cast<T>(law.coefficient);
-  const Vec3 normal = of.pose().orientation * point.normal, velocity = of.velocity_at(at);
+  const Vec3 normal = of.pose().orientation * point.normal;
+  const Vec3 velocity = of.free_motion() != nullptr ? of.free_motion()->velocity_at(at) : of.velocity_at(at);
   for (int a = 0; a < 3; ++a) {
     row.normal[a] = static_cast<T>(normal[a]);
     row.velocity[a] = static_cast<T>(velocity[a]);
@@ -153,6 +165,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
 template <class T>
 void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
   const int blocks = grid_.grid().blocks.size();
+  free_.predict(dt);
   found_.clear();
   found_places_.clear();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -165,20 +178,24 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
       found_places_.push_back(place);
     }
   }
+  // By block, and those of free bodies, which share their bodies' velocities, at the end.
+  const auto is_free = [&](const Place& place) { return free_.motion(place.body) != nullptr; };
   begin_.assign(blocks + 1, 0);
-  for (const Place& place : found_places_) ++begin_[place.block + 1];
+  for (const Place& place : found_places_) begin_[place.block + 1] += is_free(place) ? 0 : 1;
   for (int b = 0; b < blocks; ++b) begin_[b + 1] += begin_[b];
   next_.assign(begin_.begin(), begin_.end());
+  int next_free = begin_[blocks];
   rows_.resize(found_.size());
   places_.resize(found_.size());
   for (std::size_t i = 0; i < found_.size(); ++i) {
-    const int at = next_[found_places_[i].block]++;
+    const int at = is_free(found_places_[i]) ? next_free++ : next_[found_places_[i].block]++;
     rows_[at] = found_[i];
     places_[at] = found_places_[i];
   }
   held_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
+    if (FreeMotion* motion = free_.motion(places_[i].body)) motion->push(-vector_of(row.impulse), places_[i].at);
     for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       Node& node = nodes[row.node[e]];
       for (int a = 0; a < 3; ++a) {
@@ -187,6 +204,21 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
         if (wall == SoilGrid::kFree || places_[i].weight[e] == 0.0) continue;
         held_.push_back({static_cast<int>(i), wall, static_cast<std::uint8_t>(a), places_[i].weight[e]});
       }
+    }
+  }
+}
+
+template <class T>
+void ToolRows<T>::meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes) {
+  constexpr int kPasses = 2;  // as of the others
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
+      Row& row = rows_[i];
+      FreeMotion& motion = *free_.motion(places_[i].body);
+      const Vec3 velocity = motion.velocity_at(places_[i].at), before = vector_of(row.impulse);
+      for (int a = 0; a < 3; ++a) row.velocity[a] = static_cast<T>(velocity[a]);
+      table.touch(row, nodes.data());
+      motion.push(before - vector_of(row.impulse), places_[i].at);
     }
   }
 }
@@ -229,19 +261,21 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     const Row& row = rows_[i];
     const Place& place = places_[i];
     const RigidBody& body = *bodies_[place.body];
-    Vec3 impulse, slip, normal, velocity;
-    for (int a = 0; a < 3; ++a) {
-      impulse[a] = static_cast<double>(row.impulse[a]);
-      normal[a] = static_cast<double>(row.normal[a]);
-      velocity[a] = static_cast<double>(row.velocity[a]);
-      slip[a] = -velocity[a];
-      for (int e = 0; e < mpm_kernel::kCellNodes; ++e)
+    const Vec3 impulse = vector_of(row.impulse), normal = vector_of(row.normal);
+    // Of a free body the mean of the step, with which its own energy changes.
+    const FreeMotion* motion = free_.motion(place.body);
+    const Vec3 velocity = motion != nullptr ? motion->mean_velocity_at(place.at) : vector_of(row.velocity);
+    Vec3 slip = -velocity;
+    for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
+      for (int a = 0; a < 3; ++a) {
         slip[a] += static_cast<double>(row.weight[a][e]) * static_cast<double>(nodes[row.node[e]].v[a]);
+      }
     }
     ContactLedger& ledger = ledgers_[place.body];
     ledger.give({impulse, normal, place.at - body.pose().position, velocity, slip});
     // What rows leave undone along the normal.
     ledger.add_loss({0.0, -impulse.dot(normal) * slip.dot(normal)});
+    free_.take(place.body, impulse, place.at, normal, Vec3::Zero());
     Kept& kept = kept_[place.body];
     for (int a = 0; a < 3; ++a) kept.force[3 * place.sample + a] = impulse[a] / dt;
     kept.own[place.sample] = static_cast<double>(row.own);
@@ -251,6 +285,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     }
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) ledgers_[b].end_step(dt, touched[b], areas_[b]);
+  free_.finish();
 }
 
 template <class T>

@@ -38,6 +38,7 @@ void add_implicit(RunParts& parts) {
   settings.sweeps = definition.method.sweeps;
   settings.walls = definition.walls;
   settings.threads = parts.threads;
+  settings.gravity = definition.gravity;
   settings.isa = parts.isa;
   parts.modules.add(make_implicit_step(std::move(made), settings, definition.method.precision));
 }

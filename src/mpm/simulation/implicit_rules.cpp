@@ -85,10 +85,6 @@ Fault wall_part(const SimulationDefinition& d) {
 
 Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) {
   const std::string key = fmt::format("rigid_bodies.{}", body.name);
-  if (body.free) {
-    return MethodFault{
-        key, "implicit steps have bodies that move as they are told; leave free out, or use method.update: usavg"};
-  }
   if (body.particles)
     return MethodFault{key, "implicit steps meet bodies at points of their surface; leave normals: particles out"};
   for (const int axis : axes_of(d.geometry)) {

@@ -74,6 +74,13 @@ void meet_contacts(const mpm_kernel::SoilBlock<T>& block, mpm_kernel::SoilNode<T
   }
 }
 
+template <class T>
+void touch_contact(ContactRow<T>& row, SoilNode<T>* nodes) {
+  relax(row, nodes);
+}
+
+template void touch_contact(ContactRow<double>&, SoilNode<double>*);
+template void touch_contact(ContactRow<float>&, SoilNode<float>*);
 template void meet_contacts(const mpm_kernel::SoilBlock<double>&, SoilNode<double>*);
 template void meet_contacts(const mpm_kernel::SoilBlock<float>&, SoilNode<float>*);
 

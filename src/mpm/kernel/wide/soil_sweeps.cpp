@@ -13,6 +13,8 @@ mpm_kernel::SoilPasses<T> soil_passes(int axes);
 // soil_contacts.cpp
 template <class T>
 void meet_contacts(const mpm_kernel::SoilBlock<T>& block, mpm_kernel::SoilNode<T>* nodes);
+template <class T>
+void touch_contact(mpm_kernel::ContactRow<T>& row, mpm_kernel::SoilNode<T>* nodes);
 
 namespace {
 
@@ -323,6 +325,7 @@ const mpm_kernel::SweepFamily& soil_sweeps() {
                                                 &push<double>,
                                                 &sweep<double>,
                                                 &meet_contacts<double>,
+                                                &touch_contact<double>,
                                                 &flow<double>,
                                                 {soil_passes<double>(2), soil_passes<double>(3)}},
                                                {&prepare<float>,
@@ -330,6 +333,7 @@ const mpm_kernel::SweepFamily& soil_sweeps() {
                                                 &push<float>,
                                                 &sweep<float>,
                                                 &meet_contacts<float>,
+                                                &touch_contact<float>,
                                                 &flow<float>,
                                                 {soil_passes<float>(2), soil_passes<float>(3)}}};
   return kFamily;

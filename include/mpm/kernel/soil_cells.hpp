@@ -112,6 +112,12 @@ struct SoilBlock {
   int group_count, row_count, wall_count;
 };
 
+/// Sums over cells of push * w r^2, w the answer of a cell to its own stress: of the stresses, and of their changes in
+/// a sweep [J].
+struct SweepChange {
+  double size, change;
+};
+
 /// What particles give to a cell: sums over their pieces in it, weighted with volumes.
 template <class T>
 struct alignas(64) SoilSums {
@@ -172,8 +178,8 @@ struct SweepTable {
   void (*project)(SoilGroup<T>&);
   /// Gives the nodes the momentum of the cells' stresses.
   void (*push)(const SoilBlock<T>&, SoilNode<T>* nodes);
-  /// Solves the cells of a block once.
-  void (*sweep)(const SoilBlock<T>&, SoilNode<T>* nodes, bool backwards);
+  /// Solves the cells of a block once. Returns how much that changed.
+  SweepChange (*sweep)(const SoilBlock<T>&, SoilNode<T>* nodes, bool backwards);
   /// Solves the contacts of a block, walls first.
   void (*meet)(const SoilBlock<T>&, SoilNode<T>* nodes);
   /// Solves one point of contact.

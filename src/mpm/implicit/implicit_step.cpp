@@ -14,6 +14,7 @@ namespace {
 constexpr int kLeastSweeps = 10, kMostSweeps = 100;
 constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
 constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
+constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
 constexpr double kKept = 0.9;          ///< of the sweeps of the step before, at the least
 constexpr double kLightest = 1e-6;     ///< of a cell full of soil: what is added to a node's mass in the solve
 
@@ -87,6 +88,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     walls_.serialise(archive);
     light_.serialise(archive);
     archive.sum("taken", taken_);
+    archive.value("least", least_);
     archive.value("sweeps", sweeps_);
     archive.value("change", change_);
   }
@@ -131,7 +133,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
     const double least = std::max<double>(kLeastSweeps, std::ceil(kPerSecond * dt - 1e-9));
     const double wanted = std::isfinite(needed) ? std::max(needed, least) : least;
-    return std::max(static_cast<int>(kKept * sweeps_), static_cast<int>(std::min<double>(wanted, kMostSweeps)));
+    return std::max(static_cast<int>(kKept * least_), static_cast<int>(std::min<double>(wanted, kMostSweeps)));
   }
 
   void meet() {
@@ -140,17 +142,29 @@ class ImplicitStep final : public Stage, public ContactReporter {
   }
 
   void solve(double dt) {
-    sweeps_ = sweeps_needed(dt);
+    least_ = sweeps_needed(dt);
+    const int most = settings_.sweeps.value_or(kMostSweeps);
     meet();  // else what rests on friction would begin to creep
-    for (int sweep = 0; sweep < sweeps_; ++sweep) {
-      const bool backwards = sweep % 2 == 1;
-      const double before = sweep + 1 == sweeps_ ? tools_.pressed() : 0.0;
-      soil_grid_.shares().by_colour(settings_.threads,
-                                    [&](int block) { table_.sweep(block_at(block), nodes_.data(), backwards); });
+    change_ = 0.0;
+    changes_.resize(grid_.blocks.size());
+    bool settled = false;
+    for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
+      const double before = tools_.pressed();
+      const bool backwards = sweeps_ % 2 == 1;
+      std::fill(changes_.begin(), changes_.end(), mpm_kernel::SweepChange{0.0, 0.0});
+      soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
+        changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
+      });
       meet();
-      if (sweep + 1 < sweeps_) continue;
+      ++sweeps_;
       const double now = tools_.pressed();
       change_ = now > 0.0 ? std::abs(now - before) / now : 0.0;
+      double size = 0.0, change = 0.0;
+      for (const mpm_kernel::SweepChange& one : changes_) {
+        size += one.size;
+        change += one.change;
+      }
+      settled = change <= kSettled * kSettled * size;
     }
   }
 
@@ -210,6 +224,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   ImpulseAccount light_;   ///< what light nodes were not given
   double taken_ = 0.0;     ///< by the step itself [J]
   bool sorts_ = false;     ///< whether a particle was put back beyond the block that it is sorted into
+  std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in a sweep
+  std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for
   std::int32_t sweeps_ = 0;
   double change_ = 0.0;
 };

@@ -254,18 +254,23 @@ void project(SoilGroup<T>& group) {
 }
 
 template <class T>
-inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const SoilMask<T>* masks, SoilNode<T>* nodes) {
+inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const SoilMask<T>* masks, SoilNode<T>* nodes,
+                                                 Eight<T>& size, Eight<T>& change) {
   GroupNodes<T> corners(group, nodes);
   Eight<T> b[6], r[6];
   rate(group, corners, b);
   const Eight<T> weight_n = load(group.weight_n), weight_t = load(group.weight_t);
   for (int k = 0; k < 6; ++k) b[k] += load(group.shift[k]) - (k == 0 ? weight_n : weight_t) * load(group.stress[k]);
   const Eight<T> bt = length<T>(b);
-  solve(group, weight_n + load(group.compliance_n), weight_t + load(group.compliance_t), load(group.theta), b, bt, r);
+  const Eight<T> own_n = weight_n + load(group.compliance_n), own_t = weight_t + load(group.compliance_t);
+  solve(group, own_n, own_t, load(group.theta), b, bt, r);
+  const Eight<T> push = load(group.push);
   for (int k = 0; k < 6; ++k) {
-    const Eight<T> found = r[k];
+    const Eight<T> found = r[k], weight = push * (k == 0 ? own_n : own_t);
     r[k] -= load(group.stress[k]);
     store(group.stress[k], found);
+    size += weight * found * found;
+    change += weight * r[k] * r[k];
   }
   spread(group, masks, r, corners);
   for (int e = 0; e < kCellNodes; ++e) store(nodes, group.node[e], corners.of[e]);
@@ -285,10 +290,17 @@ void push(const SoilBlock<T>& block, SoilNode<T>* nodes) {
 }
 
 template <class T>
-void sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, bool backwards) {
+mpm_kernel::SweepChange sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, bool backwards) {
+  Eight<T> size{}, change{};
   for (int i = 0; i < block.group_count; ++i) {
-    relax(block.groups[backwards ? block.group_count - 1 - i : i], block.masks, nodes);
+    relax(block.groups[backwards ? block.group_count - 1 - i : i], block.masks, nodes, size, change);
   }
+  mpm_kernel::SweepChange sum{0.0, 0.0};
+  for (int l = 0; l < kGroupCells; ++l) {
+    sum.size += static_cast<double>(size[l]);
+    sum.change += static_cast<double>(change[l]);
+  }
+  return sum;
 }
 
 template <class T>

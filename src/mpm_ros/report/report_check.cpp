@@ -313,10 +313,10 @@ std::vector<CheckResult> RunChecks::results() const {
   }
   std::map<std::string, std::string> not_made;
   if (!first_balance_) {
-    not_made.emplace(
-        "balance",
-        "made of drucker_prager and mohr_coulomb alone, moved by flip; not with contact between deformable bodies "
-        "or tools of particles");
+    not_made.emplace("balance",
+                     "made of drucker_prager and mohr_coulomb alone, moved by flip in explicit steps; not with contact "
+                     "between deformable bodies "
+                     "or tools of particles");
   } else if (spent_ == 0.0) {
     not_made.emplace("balance", "no energy was spent");
   }

@@ -4,10 +4,11 @@
 // no approach, Coulomb friction. Points lie half a cell apart, and none nearer than kClearance cells to a convex edge:
 // a row binds the nodes around it, so that a body acts about half a cell further out than its outermost points lie. A
 // point is in contact where the nodes around it carry at least kPresent of the soil's density. The impulse of a row
-// begins the next step's solve, less where the nodes have become lighter. Particles that a step has left inside a body
-// are put back on its surface.
+// begins the next step's solve, less where the nodes have become lighter. The velocity of a free body is an unknown,
+// too, which each of its rows changes: they are solved one after another, after all others. Particles that a step has
+// left inside a body are put back on its surface.
 //
-// Weak: between two points of an edge the place of the edge within a cell shows (+-7 % of the force with 4 cells of
+// Weak: between two points of an edge the place of the edge within a cell shows (8 % of the force with 4 cells of
 // depth). Source: derived and calibrated for this project; doc/implicit.md has the forces.
 #pragma once
 
@@ -107,8 +108,12 @@ class ToolRows {
   FreeBodies free_;
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
-  std::vector<Row> rows_, found_;
-  std::vector<Place> places_, found_places_;
+  std::vector<Row> rows_;
+  std::vector<Place> places_;
+  // Of every point: its row, if it touches soil.
+  std::vector<Row> found_;
+  std::vector<Place> found_places_;
+  std::vector<std::uint8_t> touches_;
   std::vector<HeldPart> held_;
   std::vector<int> begin_, next_;
   std::vector<double> areas_;  ///< of each body

@@ -170,45 +170,63 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   /// Gives the grid the velocities that were found, and books what walls took.
   void store(double dt) {
-    const GridLayout& layout = grid_.layout;
-    const int per_block = layout.nodes_per_block(), dim = layout.dim();
     typename WallRows<T>::Impulses held{};
     cells_.add_to_walls(held);
     tools_.add_to_walls(held);
     for (auto& wall : held) {
       for (double& one : wall) one = -one;
     }
+    deeds_.assign(grid_.blocks.size(), {});
+    soil_grid_.shares().at_once(settings_.threads, [&](int block) { deeds_[block] = store(block, dt); });
     Vec3 light = Vec3::Zero();
     double taken = 0.0;
-    for (int block = 0; block < grid_.blocks.size(); ++block) {
-      for (int n = 0; n < per_block; ++n) {
-        if (!grid_.carries(block, n)) continue;
-        const int number = block * per_block + n;
-        const double mass = grid_.mass.at(block, 0, n);
-        for (int k = 0; k < dim; ++k) {
-          const int axis = layout.axis(k);
-          double& velocity = grid_.velocity.at(block, k, n);
-          const double start = grid_.momentum.at(block, k, n) / mass;
-          const std::uint8_t wall = soil_grid_.holder(number, axis);
-          const double found = wall == SoilGrid::kFree ? static_cast<double>(nodes_[number].v[axis]) : 0.0;
-          const double by_sweeps = found - velocity;
-          if (wall != SoilGrid::kFree) {
-            held[wall][axis] += mass * by_sweeps;
-          } else {
-            light[axis] -= lightest_ * by_sweeps;
-          }
-          // Of the work of all forces on the velocity of the end, what does not become motion.
-          const double change = found - start;
-          taken += 0.5 * mass * change * change;
-          velocity = found;
-          grid_.force.at(block, k, n) = change / dt;
-        }
+    for (const Deeds& deeds : deeds_) {
+      light += deeds.light;
+      taken += deeds.taken;
+      for (int w = 0; w < 6; ++w) {
+        for (int k = 0; k < 3; ++k) held[w][k] += deeds.held[w][k];
       }
     }
     light_.add(light);
     taken_ += taken;
     walls_.finish(nodes_, held, dt);
     tools_.finish(nodes_, dt);
+  }
+
+  /// What a step did in a block beside moving the soil.
+  struct Deeds {
+    typename WallRows<T>::Impulses held{};  ///< given by walls that hold nodes [N s]
+    Vec3 light = Vec3::Zero();              ///< as light_ [N s]
+    double taken = 0.0;                     ///< as taken_ [J]
+  };
+  Deeds store(int block, double dt) {
+    const GridLayout& layout = grid_.layout;
+    const int per_block = layout.nodes_per_block();
+    Deeds deeds;
+    for (int n = 0; n < per_block; ++n) {
+      if (!grid_.carries(block, n)) continue;
+      const int number = block * per_block + n;
+      const double mass = grid_.mass.at(block, 0, n);
+      for (int k = 0; k < layout.dim(); ++k) {
+        const int axis = layout.axis(k);
+        double& velocity = grid_.velocity.at(block, k, n);
+        const double start = grid_.momentum.at(block, k, n) / mass;
+        const std::uint8_t wall = soil_grid_.holder(number, axis);
+        const double found = wall == SoilGrid::kFree ? static_cast<double>(nodes_[number].v[axis]) : 0.0;
+        const double by_sweeps = found - velocity;
+        if (wall != SoilGrid::kFree) {
+          deeds.held[wall][axis] += mass * by_sweeps;
+        } else {
+          deeds.light[axis] -= lightest_ * by_sweeps;
+        }
+        // Of the work of all forces on the velocity of the end, what does not become motion.
+        const double change = found - start;
+        deeds.taken += 0.5 * mass * change * change;
+        velocity = found;
+        grid_.force.at(block, k, n) = change / dt;
+      }
+    }
+    return deeds;
   }
 
   const mpm_kernel::SweepTable<T>& table_;
@@ -225,6 +243,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   double taken_ = 0.0;     ///< by the step itself [J]
   bool sorts_ = false;     ///< whether a particle was put back beyond the block that it is sorted into
   std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in a sweep
+  std::vector<Deeds> deeds_;                      ///< of each block
   std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for
   std::int32_t sweeps_ = 0;
   double change_ = 0.0;

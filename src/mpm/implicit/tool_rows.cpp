@@ -45,8 +45,11 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
   std::size_t points = 0;
   for (const auto& samples : samples_) points += samples.size();
   // So that no step allocates when a tool meets more soil.
-  for (auto* rows : {&rows_, &found_}) rows->reserve(points);
-  for (auto* places : {&places_, &found_places_}) places->reserve(points);
+  rows_.reserve(points);
+  places_.reserve(points);
+  found_.resize(points);
+  found_places_.resize(points);
+  touches_.resize(points);
   held_.reserve(points);
 }
 
@@ -166,28 +169,33 @@ template <class T>
 void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
   const int blocks = grid_.grid().blocks.size();
   free_.predict(dt);
-  found_.clear();
-  found_places_.clear();
+  std::size_t first = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const FrictionLaw law = laws_[b].in_step(start, dt, [&] { return "'" + bodies_[b]->name() + "'"; });
-    for (std::size_t s = 0; s < samples_[b].size(); ++s) {
-      Row row;
-      Place place;
-      if (!make(static_cast<int>(b), static_cast<int>(s), nodes, law, dt, row, place)) continue;
-      found_.push_back(row);
-      found_places_.push_back(place);
+    const int count = static_cast<int>(samples_[b].size());
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+    for (int s = 0; s < count; ++s) {
+      touches_[first + s] =
+          make(static_cast<int>(b), s, nodes, law, dt, found_[first + s], found_places_[first + s]) ? 1 : 0;
     }
+    first += samples_[b].size();
   }
   // By block, and those of free bodies, which share their bodies' velocities, at the end.
   const auto is_free = [&](const Place& place) { return free_.motion(place.body) != nullptr; };
   begin_.assign(blocks + 1, 0);
-  for (const Place& place : found_places_) begin_[place.block + 1] += is_free(place) ? 0 : 1;
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (touches_[i] == 0) continue;
+    ++touching;
+    if (!is_free(found_places_[i])) ++begin_[found_places_[i].block + 1];
+  }
   for (int b = 0; b < blocks; ++b) begin_[b + 1] += begin_[b];
   next_.assign(begin_.begin(), begin_.end());
   int next_free = begin_[blocks];
-  rows_.resize(found_.size());
-  places_.resize(found_.size());
+  rows_.resize(touching);
+  places_.resize(touching);
   for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (touches_[i] == 0) continue;
     const int at = is_free(found_places_[i]) ? next_free++ : next_[found_places_[i].block]++;
     rows_[at] = found_[i];
     places_[at] = found_places_[i];

@@ -31,7 +31,9 @@
 namespace mpm {
 
 inline constexpr const char* kImplicitName = "implicit";  ///< of the module
-inline constexpr double kImplicitTravel = 0.5;            ///< cells that a particle may move in a step
+inline constexpr double kImplicitTravel = 0.5;            ///< cells that soil may move in a step
+inline constexpr double kFastTravel = 1.0;                ///< cells that its fastest particles may move in a step
+inline constexpr double kFastPart = 0.05;                 ///< part of a body's particles that these are
 inline constexpr double kImplicitStep = 0.01;             ///< of a scene that names none [s]
 inline constexpr double kLongestImplicitStep = 0.1;       ///< [s]
 

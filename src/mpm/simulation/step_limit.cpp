@@ -6,6 +6,7 @@
 // (shape/domain_shear.hpp), for which the largest shear of a body is taken to be where its waves are fastest. Source:
 // method reference 11.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,42 @@ class SceneStep final : public Module {
  private:
   double dt_;
 };
+
+/// The time in which what moves and falls goes that way [m]: speed dt + gravity dt^2 = way.
+double time_to_move(double way, double speed, double gravity) {
+  const double sum = speed + std::sqrt(speed * speed + 4.0 * gravity * way);
+  return sum > 0.0 ? 2.0 * way / sum : std::numeric_limits<double>::infinity();
+}
+
+/// The largest magnitude; not a number where one is not finite.
+template <class T>
+double fastest_of(const T* v, int count, int threads) {
+  double most = 0.0;
+  bool finite = true;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most) reduction(&& : finite)
+  for (int p = 0; p < count; ++p) {
+    const double speed = std::abs(static_cast<double>(v[p]));
+    most = std::max(most, speed);
+    finite = finite && std::isfinite(speed);
+  }
+  return finite ? most : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A speed that at most this part of the particles exceeds, to a 64th of the largest.
+template <class T>
+double exceeded_by(double part, const T* v, int count, double largest, int threads) {
+  constexpr int kBins = 64;
+  if (!(largest > 0.0)) return largest;
+  std::array<int, kBins> found{};
+  int* bins = found.data();
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : bins[:kBins])
+  for (int p = 0; p < count; ++p) {
+    ++bins[std::min(kBins - 1, static_cast<int>(kBins * (std::abs(static_cast<double>(v[p])) / largest)))];
+  }
+  int bin = kBins, above = 0;
+  while (bin > 0 && above + bins[bin - 1] <= part * count) above += bins[--bin];
+  return largest * bin / kBins;
+}
 
 /// Largest shear of the domains that particles awake have now, at most the limit.
 template <int Dim>
@@ -80,39 +117,28 @@ void add_step_limit(RunParts& parts) {
   if (step) parts.modules.add(std::make_unique<SceneStep>(*step));
 }
 
-// No wave limits an implicit step; what moves, or falls from now on, may cross a part of a cell in it.
+// No wave limits an implicit step; what moves, or falls from now on, may cross a part of a cell in it along each axis.
+// Beside the corners of a tool a few particles are faster than all others (doc/implicit.md): they may cross more.
 StepLimit Simulation::State::survey_motion() const {
   StepLimit limit;
   limit.by = modules.find(kImplicitName);
-  const double cell = layout().smallest_cell(), gravity = definition.gravity.norm();
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet& set = sets[s];
-    const int count = set.awake();
     for (int k = 0; k < layout().dim(); ++k) {
-      double most = 0.0;
-      bool finite = true;
+      const double cell = layout().cell(k), gravity = std::abs(definition.gravity[layout().axis(k)]);
+      StepLimit motion = limit;
+      motion.part = static_cast<int>(s);
       set.v[k].visit([&](const auto& v) {
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most) reduction(&& : finite)
-        for (int p = 0; p < count; ++p) {
-          const double speed = std::abs(static_cast<double>(v[p]));
-          most = std::max(most, speed);
-          finite = finite && std::isfinite(speed);
-        }
+        motion.speed = fastest_of(v.data(), set.awake(), threads);
+        motion.dt = time_to_move(kFastTravel * cell, motion.speed, gravity);
+        if (!(time_to_move(kImplicitTravel * cell, motion.speed, gravity) < limit.dt)) return;
+        const double bulk = exceeded_by(kFastPart, v.data(), set.awake(), motion.speed, threads);
+        motion.dt = std::min(motion.dt, time_to_move(kImplicitTravel * cell, bulk, gravity));
       });
-      if (!finite) {
-        limit.part = static_cast<int>(s);
-        limit.dt = std::numeric_limits<double>::quiet_NaN();
-        return limit;
-      }
-      if (most < limit.speed) continue;
-      limit.part = static_cast<int>(s);
-      limit.speed = most;
+      limit.tighten(motion);
+      if (!std::isfinite(motion.speed)) return motion;
     }
   }
-  // speed dt + gravity dt^2 = the way
-  const double way = kImplicitTravel * cell;
-  const double root = std::sqrt(limit.speed * limit.speed + 4.0 * gravity * way);
-  if (limit.speed + root > 0.0) limit.dt = 2.0 * way / (limit.speed + root);
   return limit;
 }
 

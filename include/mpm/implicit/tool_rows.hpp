@@ -64,8 +64,10 @@ class ToolRows {
   void meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes);
   /// Sum of the impulses' magnitudes [N s].
   double pressed() const;
-  /// Mean pressure on the points in contact [Pa].
-  double pressure(double dt) const;
+  /// The largest mean pressure on the points of a body in contact at the start of the step, of a body that has moved
+  /// far the less [Pa]: the stiffness of the soil shows while it is loaded, over the first kShort cells, and seldom when
+  /// what fails has failed before.
+  double pressure_to_resolve() const { return pressure_; }
   /// Books the impulses, with the nodes as they are now, gives free bodies the velocities that they have left them, and
   /// keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
@@ -79,6 +81,8 @@ class ToolRows {
  private:
   /// The same of one body, and the particles of a set in an owner's block.
   bool put_out(const RigidBody& body, ParticleSet& set, Grid& grid, int owner) const;
+  /// Finds the pressure to resolve.
+  void look_at_loads(double dt);
   /// What is known of a row beside what sweeps need.
   struct Place {
     int body, sample, block;
@@ -117,6 +121,8 @@ class ToolRows {
   std::vector<HeldPart> held_;
   std::vector<int> begin_, next_;
   std::vector<double> areas_;  ///< of each body
+  std::vector<Vec3> travels_;  ///< of each body where it meets soil, the last kLong cells of it at the most [m]
+  double pressure_ = 0.0;      ///< [Pa]
 };
 
 }  // namespace mpm

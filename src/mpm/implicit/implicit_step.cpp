@@ -15,6 +15,7 @@ constexpr int kLeastSweeps = 10, kMostSweeps = 100;
 constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
 constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
 constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
+constexpr double kForceError = 0.02;    ///< change of the forces on tools in the last half of the sweeps, over the forces
 constexpr double kKept = 0.9;          ///< of the sweeps of the step before, at the least
 constexpr double kLightest = 1e-6;     ///< of a cell full of soil: what is added to a node's mass in the solve
 
@@ -130,7 +131,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     if (settings_.sweeps) return *settings_.sweeps;
     const double cell = grid_.layout.smallest_cell();
     const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
-    const double needed = std::ceil(kStiffer * tools_.pressure(dt) / per_sweep);
+    const double needed = std::ceil(kStiffer * tools_.pressure_to_resolve() / per_sweep);
     const double least = std::max<double>(kLeastSweeps, std::ceil(kPerSecond * dt - 1e-9));
     const double wanted = std::isfinite(needed) ? std::max(needed, least) : least;
     return std::max(static_cast<int>(kKept * least_), static_cast<int>(std::min<double>(wanted, kMostSweeps)));
@@ -148,8 +149,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
     change_ = 0.0;
     changes_.resize(grid_.blocks.size());
     bool settled = false;
+    pressed_.clear();
+    pressed_.push_back(tools_.pressed());
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
-      const double before = tools_.pressed();
       const bool backwards = sweeps_ % 2 == 1;
       std::fill(changes_.begin(), changes_.end(), mpm_kernel::SweepChange{0.0, 0.0});
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
@@ -158,13 +160,14 @@ class ImplicitStep final : public Stage, public ContactReporter {
       meet();
       ++sweeps_;
       const double now = tools_.pressed();
-      change_ = now > 0.0 ? std::abs(now - before) / now : 0.0;
+      pressed_.push_back(now);
+      change_ = now > 0.0 ? std::abs(now - pressed_[sweeps_ / 2]) / now : 0.0;
       double size = 0.0, change = 0.0;
       for (const mpm_kernel::SweepChange& one : changes_) {
         size += one.size;
         change += one.change;
       }
-      settled = change <= kSettled * kSettled * size;
+      settled = change <= kSettled * kSettled * size && change_ <= kForceError;
     }
   }
 
@@ -244,6 +247,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   bool sorts_ = false;     ///< whether a particle was put back beyond the block that it is sorted into
   std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in a sweep
   std::vector<Deeds> deeds_;                      ///< of each block
+  std::vector<double> pressed_;                   ///< ToolRows::pressed() after each sweep of a step [N s]
   std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for
   std::int32_t sweeps_ = 0;
   double change_ = 0.0;

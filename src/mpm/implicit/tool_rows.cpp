@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kApart = 0.5;      ///< cells between points
 constexpr double kClearance = 0.6;  ///< cells from a convex edge
+constexpr double kShort = 1.5, kLong = 6.0;  ///< cells of travel (pressure_to_resolve())
 constexpr double kPresent = 0.2;    ///< of the soil's density, from which on a point is in contact
 
 double at_least_zero(double value) { return std::max(value, 0.0); }
@@ -50,6 +51,7 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
   found_.resize(points);
   found_places_.resize(points);
   touches_.resize(points);
+  travels_.assign(bodies_.size(), Vec3::Zero());
   held_.reserve(points);
 }
 
@@ -214,6 +216,7 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
       }
     }
   }
+  look_at_loads(dt);
 }
 
 template <class T>
@@ -239,14 +242,34 @@ double ToolRows<T>::pressed() const {
 }
 
 template <class T>
-double ToolRows<T>::pressure(double dt) const {
-  double sum = 0.0, area = 0.0;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double impulse = magnitude(rows_[i].impulse);
-    sum += impulse;
-    if (impulse > 0.0) area += places_[i].area * (planar(settings_.geometry) ? settings_.across : 1.0);
+void ToolRows<T>::look_at_loads(double dt) {
+  struct Load {
+    double impulse = 0.0, area = 0.0;
+    Vec3 velocity = Vec3::Zero();  ///< weighted with impulses
+  };
+  const double cell = grid_.grid().layout.smallest_cell();
+  const double across = planar(settings_.geometry) ? settings_.across : 1.0;
+  pressure_ = 0.0;
+  // Rows of a body need not lie together.
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Load load;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double impulse = magnitude(rows_[i].impulse);
+      if (places_[i].body != static_cast<int>(b) || !(impulse > 0.0)) continue;
+      load.impulse += impulse;
+      load.area += places_[i].area * across;
+      load.velocity += impulse * vector_of(rows_[i].velocity);
+    }
+    Vec3& travel = travels_[b];
+    if (!(load.impulse > 0.0)) {
+      travel.setZero();
+      continue;
+    }
+    travel += dt / load.impulse * load.velocity;
+    travel *= std::min(1.0, kLong * cell / std::max(travel.norm(), cell));
+    const double part = std::min(1.0, kShort * cell / std::max(travel.norm(), cell));
+    pressure_ = std::max(pressure_, part * load.impulse / (load.area * dt));
   }
-  return area > 0.0 ? sum / (area * dt) : 0.0;
 }
 
 template <class T>
@@ -303,6 +326,7 @@ void ToolRows<T>::serialise(StateArchive& archive) {
     ledgers_[b].serialise(archive);
     archive.list("forces", kept_[b].force);
     archive.list("own", kept_[b].own);
+    archive.value("travel", travels_[b]);
   }
 }
 

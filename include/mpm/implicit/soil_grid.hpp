@@ -50,6 +50,15 @@ class SoilGrid {
   const std::vector<WallNode>& frictional() const { return frictional_; }
 
   const BlockShares& shares() const { return shares_; }
+  /// Whether test(block) is true for a block or one of those around it.
+  template <class Test>
+  bool any_around(int block, Test&& test) const {
+    const int count = neighbours();
+    for (const int* at = &around_[static_cast<std::size_t>(count) * block], *end = at + count; at != end; ++at) {
+      if (*at >= 0 && test(*at)) return true;
+    }
+    return false;
+  }
   int local_number(const std::array<int, 3>& local) const {
     int number = 0;
     for (int k = 0; k < grid_.layout.dim(); ++k) number = kBlockEdge * number + local[k];
@@ -57,7 +66,8 @@ class SoilGrid {
   }
 
  private:
-  void find_upper();
+  int neighbours() const { return grid_.layout.dim() == 3 ? 27 : 9; }
+  void find_around();
   void find_held();
 
   const Grid& grid_;
@@ -67,7 +77,7 @@ class SoilGrid {
   GridLayout wider_;  ///< one block more at the lower ends, so that blocks beyond walls have neighbours, too
   BlockTable swept_;  ///< the blocks of the grid as owners
   BlockShares shares_;
-  std::vector<int> upper_;  ///< [block][corner]: the block above it by these bits, or -1
+  std::vector<int> around_;  ///< [block][3^dim]: the blocks around it and itself, the last axis fastest, or -1
   std::vector<std::uint8_t> holders_;
   std::vector<WallNode> frictional_;
   std::vector<std::uint64_t> keys_;

@@ -81,8 +81,8 @@ struct SoilFlow {
 
 /// A point of a rigid body at which contact acts on the nodes around it.
 template <class T>
-struct ContactRow {
-  T weight[3][kCellNodes];  ///< along each axis, 0 where a wall holds the node
+struct alignas(4 * sizeof(T)) ContactRow {
+  T weight[kCellNodes][4];  ///< of a node along each axis, 0 where a wall holds it; and 0
   T own;                    ///< change of the velocity at the point by an impulse there, of the axes the most [1/kg]
   T friction;               ///< coefficient; negative: no sliding while it presses
   T normal[3];              ///< out of the body

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <chrono>
 
 #include "mpm/grid/each_share.hpp"
 #include "mpm/kernel/select.hpp"
@@ -16,6 +17,8 @@ constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool need
 constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
 constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
 constexpr double kForceError = 0.02;    ///< change of the forces on tools in the last half of the sweeps, over the forces
+constexpr int kWholeSweeps = 2;        ///< that take all blocks, whether they need it or not
+constexpr double kQuiet = 0.1;         ///< part of a block's share of kSettled below which it is not swept again
 constexpr double kKept = 0.9;          ///< of the sweeps of the step before, at the least
 constexpr double kLightest = 1e-6;     ///< of a cell full of soil: what is added to a node's mass in the solve
 
@@ -147,16 +150,21 @@ class ImplicitStep final : public Stage, public ContactReporter {
     const int most = settings_.sweeps.value_or(kMostSweeps);
     meet();  // else what rests on friction would begin to creep
     change_ = 0.0;
-    changes_.resize(grid_.blocks.size());
+    changes_.assign(grid_.blocks.size(), {0.0, 0.0});
+    stirred_.assign(grid_.blocks.size(), 1);
     bool settled = false;
     pressed_.clear();
     pressed_.push_back(tools_.pressed());
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
       const bool backwards = sweeps_ % 2 == 1;
-      std::fill(changes_.begin(), changes_.end(), mpm_kernel::SweepChange{0.0, 0.0});
+      if (sweeps_ >= kWholeSweeps) find_stirred();
+      const auto t0 = std::chrono::steady_clock::now();
+      struct Rep { double t = 0; long n = 0; ~Rep() { fprintf(stderr, "SWEEP %.1f us, %ld\n", t / n * 1e6, n); } };
+      static Rep rep;
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
-        changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
+        if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
       });
+      rep.t += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count(); rep.n++;
       meet();
       ++sweeps_;
       const double now = tools_.pressed();
@@ -168,6 +176,18 @@ class ImplicitStep final : public Stage, public ContactReporter {
         change += one.change;
       }
       settled = change <= kSettled * kSettled * size && change_ <= kForceError;
+    }
+  }
+
+  /// Blocks in which, or beside which, the last sweep has changed more than a block's share of what may be left: the
+  /// others need no sweep until their neighbours change.
+  void find_stirred() {
+    double size = 0.0;
+    for (const mpm_kernel::SweepChange& one : changes_) size += one.size;
+    const int blocks = static_cast<int>(changes_.size());
+    const double share = kQuiet * kSettled * kSettled * size / blocks;
+    for (int block = 0; block < blocks; ++block) {
+      stirred_[block] = soil_grid_.any_around(block, [&](int near) { return changes_[near].change > share; }) ? 1 : 0;
     }
   }
 
@@ -245,7 +265,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   ImpulseAccount light_;   ///< what light nodes were not given
   double taken_ = 0.0;     ///< by the step itself [J]
   bool sorts_ = false;     ///< whether a particle was put back beyond the block that it is sorted into
-  std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in a sweep
+  std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in its last sweep
+  std::vector<std::uint8_t> stirred_;             ///< of each block, whether the next sweep takes it
   std::vector<Deeds> deeds_;                      ///< of each block
   std::vector<double> pressed_;                   ///< ToolRows::pressed() after each sweep of a step [N s]
   std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for

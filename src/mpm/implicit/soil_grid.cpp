@@ -39,24 +39,23 @@ bool SoilGrid::rebuild() {
     work_[grid_.blocks.owner_block(owner)] = static_cast<std::uint32_t>(grid_.layout.nodes_per_block());
   }
   shares_.rebuild(swept_, work_, threads_);
-  find_upper();
+  find_around();
   find_held();
   return true;
 }
 
-void SoilGrid::find_upper() {
-  const int dim = grid_.layout.dim(), corners = 1 << dim, blocks = grid_.blocks.size();
-  upper_.assign(static_cast<std::size_t>(corners) * blocks, -1);
+void SoilGrid::find_around() {
+  const int dim = grid_.layout.dim(), count = neighbours(), blocks = grid_.blocks.size();
+  around_.assign(static_cast<std::size_t>(count) * blocks, -1);
   for (int b = 0; b < blocks; ++b) {
-    // Every block in use owns itself among those that are swept, so its neighbours are listed there.
-    for (int c = 0; c < corners; ++c) {
-      std::array<int, 3> above = grid_.blocks.block(b);
-      bool numbered = true;  // beyond the last block there is no key
-      for (int k = 0; k < dim; ++k) {
-        above[k] += c >> k & 1;
-        numbered = numbered && kBlockEdge * above[k] <= grid_.layout.last_node(k) + kBlockEdge;
+    for (int n = 0; n < count; ++n) {
+      std::array<int, 3> near = grid_.blocks.block(b);
+      bool numbered = true;  // beyond the first and the last block there are no keys
+      for (int k = dim - 1, rest = n; k >= 0; --k, rest /= 3) {
+        near[k] += rest % 3 - 1;
+        numbered = numbered && near[k] >= -1 && kBlockEdge * near[k] <= grid_.layout.last_node(k) + kBlockEdge;
       }
-      if (numbered) upper_[static_cast<std::size_t>(corners) * b + c] = grid_.blocks.find(grid_.layout.key(above));
+      if (numbered) around_[static_cast<std::size_t>(count) * b + n] = grid_.blocks.find(grid_.layout.key(near));
     }
   }
 }
@@ -95,16 +94,13 @@ void SoilGrid::find_held() {
 
 int SoilGrid::corner(int block, const std::array<int, 3>& local, int corner) const {
   const int dim = grid_.layout.dim();
-  int above = 0, number = 0;
+  int near = 0, number = 0;
   for (int k = 0; k < dim; ++k) {
-    int at = local[k] + (corner >> k & 1);
-    if (at == kBlockEdge) {
-      at = 0;
-      above |= 1 << k;
-    }
-    number = kBlockEdge * number + at;
+    const int at = local[k] + (corner >> k & 1), above = at == kBlockEdge ? 1 : 0;
+    near = 3 * near + 1 + above;
+    number = kBlockEdge * number + (above != 0 ? 0 : at);
   }
-  const int found = upper_[(static_cast<std::size_t>(block) << dim) + above];
+  const int found = around_[static_cast<std::size_t>(neighbours()) * block + near];
   return found < 0 ? no_node(block) : found * grid_.layout.nodes_per_block() + number;
 }
 

@@ -132,9 +132,10 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     const double weight = weights[e] / carrying;
     place.weight[e] = weight;
+    row.weight[e][3] = T(0);
     for (int a = 0; a < 3; ++a) {
       const bool held = grid_.holder(row.node[e], a) != SoilGrid::kFree;
-      row.weight[a][e] = held ? T(0) : static_cast<T>(weight);
+      row.weight[e][a] = held ? T(0) : static_cast<T>(weight);
       if (!held) own[a] += weight * weight * static_cast<double>(nodes[row.node[e]].inverse_mass);
     }
   }
@@ -209,7 +210,7 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
     for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       Node& node = nodes[row.node[e]];
       for (int a = 0; a < 3; ++a) {
-        node.v[a] += node.inverse_mass * row.weight[a][e] * row.impulse[a];
+        node.v[a] += node.inverse_mass * row.weight[e][a] * row.impulse[a];
         const std::uint8_t wall = grid_.holder(row.node[e], a);
         if (wall == SoilGrid::kFree || places_[i].weight[e] == 0.0) continue;
         held_.push_back({static_cast<int>(i), wall, static_cast<std::uint8_t>(a), places_[i].weight[e]});
@@ -299,7 +300,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     Vec3 slip = -velocity;
     for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       for (int a = 0; a < 3; ++a) {
-        slip[a] += static_cast<double>(row.weight[a][e]) * static_cast<double>(nodes[row.node[e]].v[a]);
+        slip[a] += static_cast<double>(row.weight[e][a]) * static_cast<double>(nodes[row.node[e]].v[a]);
       }
     }
     ContactLedger& ledger = ledgers_[place.body];

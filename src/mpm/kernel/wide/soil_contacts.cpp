@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mpm/kernel/soil_cells.hpp"
+#include "mpm/kernel/soil_lanes.hpp"
 
 namespace mpm {
 namespace {
@@ -12,9 +13,14 @@ using mpm_kernel::kCellNodes;
 using mpm_kernel::SoilNode;
 using mpm_kernel::WallRow;
 
+template <class T>
+Four<T>& four(T* of) {
+  return *reinterpret_cast<Four<T>*>(of);
+}
+
 /// The impulse of Coulomb's law where an impulse l makes the velocity u + own l: no approach, no pull.
 template <class T>
-void coulomb(const T* u, const T* normal, T own, T friction, T* l) {
+inline __attribute__((always_inline)) void coulomb(const T* u, const T* normal, T own, T friction, T* l) {
   const T un = u[0] * normal[0] + u[1] * normal[1] + u[2] * normal[2];
   const T ln = -un / own;
   if (ln <= T(0)) {
@@ -33,20 +39,18 @@ void coulomb(const T* u, const T* normal, T own, T friction, T* l) {
 
 template <class T>
 void relax(ContactRow<T>& row, SoilNode<T>* nodes) {
-  T u[3] = {-row.velocity[0], -row.velocity[1], -row.velocity[2]}, l[3];
-  for (int e = 0; e < kCellNodes; ++e) {
-    for (int a = 0; a < 3; ++a) u[a] += row.weight[a][e] * nodes[row.node[e]].v[a];
-  }
-  for (int a = 0; a < 3; ++a) u[a] -= row.own * row.impulse[a];
+  Four<T> part[2] = {};  // of even and odd nodes, so that half as many sums wait for each other
+  for (int e = 0; e < kCellNodes; ++e) part[e % 2] += four(row.weight[e]) * four(nodes[row.node[e]].v);
+  const Four<T> velocity = part[0] + part[1];
+  T u[3], l[3];
+  for (int a = 0; a < 3; ++a) u[a] = velocity[a] - row.velocity[a] - row.own * row.impulse[a];
   coulomb(u, row.normal, row.own, row.friction, l);
-  T d[3];
-  for (int a = 0; a < 3; ++a) {
-    d[a] = l[a] - row.impulse[a];
-    row.impulse[a] = l[a];
-  }
+  const Four<T> change = {l[0] - row.impulse[0], l[1] - row.impulse[1], l[2] - row.impulse[2], T(0)};
+  for (int a = 0; a < 3; ++a) row.impulse[a] = l[a];
+  // The fourth number of a node, its inverse mass, has no weight.
   for (int e = 0; e < kCellNodes; ++e) {
     SoilNode<T>& node = nodes[row.node[e]];
-    for (int a = 0; a < 3; ++a) node.v[a] += node.inverse_mass * row.weight[a][e] * d[a];
+    four(node.v) += node.inverse_mass * (four(row.weight[e]) * change);
   }
 }
 

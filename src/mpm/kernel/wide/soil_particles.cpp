@@ -21,66 +21,81 @@ constexpr double kMostStrain = 0.2;  ///< of volume, that a step may give a part
 constexpr int kChunk = 64;
 constexpr int kPadded = kChunk + 16;  ///< and what the last register writes beyond them
 
-/// Pieces of a box along one axis: cells counted from the block's first, parts of the box, middles from the lower face.
-struct Cut {
-  int count = 1, cell[2];
-  double part[2], middle[2];
+/// Where the boxes of a chunk of particles are cut along one axis, into a piece in each of two cells, of which one may
+/// be empty: the lower cell, counted from the block's first one, the pieces' parts of the box, and their middles from
+/// the lower faces of their cells.
+template <class T>
+struct Cuts {
+  int cell[kPadded];
+  T part[2][kPadded], middle[2][kPadded];
+
+  void find(const double* x, int count, double origin, double inverse_cell, double corner, double half) {
+    constexpr int kShift = 64;
+    const double whole = 1.0 / (2.0 * half);
+    for (int q = 0; q < count; ++q) {
+      const double at = (x[q] - origin) * inverse_cell - corner, low = at - half, high = at + half;
+      const int i = static_cast<int>(low + kShift) - kShift;
+      const double face = i + 1.0;  // between the two
+      double above = std::max(high - face, 0.0) * whole;
+      above = above < kThinnest ? 0.0 : above > 1.0 - kThinnest ? 1.0 : above;
+      // Of a box in one cell the middle is that of the box.
+      const double lower = above > 0.0 ? 0.5 * (low - face) + 1.0 : at - i;
+      const double upper = above < 1.0 ? 0.5 * (high - face) : at - face;
+      cell[q] = i;
+      part[0][q] = static_cast<T>(1.0 - above);
+      part[1][q] = static_cast<T>(above);
+      middle[0][q] = static_cast<T>(lower);
+      middle[1][q] = static_cast<T>(upper);
+    }
+  }
 };
 
-Cut cut(double x, double half) {
-  constexpr int kShift = 64;
-  const double low = x - half, high = x + half;
-  const int i = static_cast<int>(low + kShift) - kShift, j = static_cast<int>(high + kShift) - kShift;
-  Cut one;
-  one.cell[0] = i;
-  one.part[0] = 1.0;
-  one.middle[0] = x - i;
-  if (i == j) return one;
-  const double above = (high - j) / (2.0 * half);
-  if (above >= 1.0 - kThinnest) {
-    one.cell[0] = j;
-    one.middle[0] = x - j;
-  } else if (above > kThinnest) {
-    one.count = 2;
-    one.part[0] = 1.0 - above;
-    one.middle[0] = 0.5 * (low + j) - i;
-    one.cell[1] = j;
-    one.part[1] = above;
-    one.middle[1] = 0.5 * (high - j);
-  }
-  return one;
-}
+/// Of a chunk of particles along each axis.
+template <int Dim, class T>
+struct Boxes {
+  Cuts<T> along[Dim];
 
-/// visit(block around, cell inside it, part of the box, middle along world axes) for each piece of a particle.
-template <int Dim, class T, class Visit>
-void each_piece(const SoilParticles<T>& set, int p, const int* corner, Visit&& visit) {
-  Cut cuts[3];
-  for (int k = 0; k < Dim; ++k) {
-    cuts[k] = cut((set.x[k][p] - set.origin[k]) * set.inverse_cell[k] - corner[k], set.half[k]);
+  void find(const SoilParticles<T>& set, int begin, int count, const int* corner) {
+    for (int k = 0; k < Dim; ++k) {
+      along[k].find(set.x[k] + begin, count, set.origin[k], set.inverse_cell[k], corner[k], set.half[k]);
+    }
   }
-  static_assert(mpm_kernel::kTileEdge - 2 * mpm_kernel::kTileMargin == 4,
-                "the numbers below are of blocks of four nodes");
-  const auto block_of = [](int cell) { return std::clamp((cell + 4) >> 2, 0, 2); };
-  for (int a = 0; a < cuts[0].count; ++a) {
-    const int x = cuts[0].cell[a];
-    for (int b = 0; b < cuts[1].count; ++b) {
-      const int y = cuts[1].cell[b];
-      const double part = cuts[0].part[a] * cuts[1].part[b];
-      const int block = 3 * block_of(x) + block_of(y), local = 4 * (x & 3) + (y & 3);
-      if constexpr (Dim == 2) {
-        visit(block, local, part, {cuts[0].middle[a], 0.0, cuts[1].middle[b]});
-      } else {
-        for (int c = 0; c < cuts[2].count; ++c) {
-          const int z = cuts[2].cell[c];
-          visit(3 * block + block_of(z), 4 * local + (z & 3), part * cuts[2].part[c],
-                {cuts[0].middle[a], cuts[1].middle[b], cuts[2].middle[c]});
+};
+
+/// Where the two cells along an axis lie among the cells around a block: what they add to the number of the block, and
+/// to that of the cell inside it.
+struct Spot {
+  int block[2], local[2];
+
+  Spot(int cell, int per_block, int per_cell) {
+    static_assert(mpm_kernel::kTileEdge - 2 * mpm_kernel::kTileMargin == 4,
+                  "the numbers below are of blocks of four nodes");
+    for (int a = 0; a < 2; ++a) {
+      block[a] = per_block * std::clamp((cell + a + 4) >> 2, 0, 2);
+      local[a] = per_cell * ((cell + a) & 3);
+    }
+  }
+};
+
+/// visit(block around, cell inside it, pieces along each axis) for each of the pieces of a particle, empty ones too.
+template <int Dim, class T, class Visit>
+inline __attribute__((always_inline)) void each_piece(const Boxes<Dim, T>& boxes, int q, Visit&& visit) {
+  if constexpr (Dim == 2) {
+    const Spot x(boxes.along[0].cell[q], 3, 4), z(boxes.along[1].cell[q], 1, 1);
+    for (int a = 0; a < 2; ++a) {
+      for (int c = 0; c < 2; ++c) visit(x.block[a] + z.block[c], x.local[a] + z.local[c], a, c, 0);
+    }
+  } else {
+    const Spot x(boxes.along[0].cell[q], 9, 16), y(boxes.along[1].cell[q], 3, 4), z(boxes.along[2].cell[q], 1, 1);
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < 2; ++b) {
+        for (int c = 0; c < 2; ++c) {
+          visit(x.block[a] + y.block[b] + z.block[c], x.local[a] + y.local[b] + z.local[c], a, b, c);
         }
       }
     }
   }
 }
-
-using Middle = std::array<double, 3>;
 
 template <class Geometry, class W>
 auto velocity_gradient(const W (&l)[3][3]) {
@@ -104,14 +119,38 @@ template <class T>
 struct Rows {
   typedef T Sixteen __attribute__((vector_size(16 * sizeof(T)), aligned(sizeof(T)), may_alias));
   typedef T Eight __attribute__((vector_size(8 * sizeof(T)), aligned(sizeof(T)), may_alias));
+  using Truth = decltype(Sixteen{} < Sixteen{});
 };
+
+/// Of a piece along an axis, what the numbers of SoilSums are multiplied with: its part of the box, and in those lanes
+/// that are moments along the axis its middle as well.
+template <class T>
+inline __attribute__((always_inline)) typename Rows<T>::Sixteen factors(const Cuts<T>& cuts, int q, int piece,
+                                                                        typename Rows<T>::Truth moments) {
+  using Sixteen = typename Rows<T>::Sixteen;
+  const T part = cuts.part[piece][q];
+  return moments ? Sixteen{} + part * cuts.middle[piece][q] : Sixteen{} + part;
+}
 
 template <class Geometry, class T>
 void gather(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places) {
   using W = Wide<T>;
   using Sixteen = typename Rows<T>::Sixteen;
   static_assert(sizeof(SoilSums<T>) == 16 * sizeof(T));
+  constexpr int kDim = Geometry::kDim;
+  constexpr bool kMoments[7] = {true, true, kDim == 3, true, kDim == 3, true, kDim == 3};  // 1, x, y, z, xy, xz, yz
+  using Truth = typename Rows<T>::Truth;
+  constexpr Truth kX = {0, -1, 0, 0, -1, -1}, kY = {0, 0, -1, 0, -1, 0, -1}, kZ = {0, 0, 0, -1, 0, -1, -1};
+  const Truth moments[3] = {kX, kDim == 3 ? kY : kZ, kZ};
+  // Empty pieces may lie where no cells are.
+  Sixteen nowhere[kDim == 3 ? 64 : 16] = {};
+  Sixteen* to[27];
+  for (int n = 0; n < (kDim == 3 ? 27 : 9); ++n) {
+    to[n] = places.sums[n] != nullptr ? reinterpret_cast<Sixteen*>(places.sums[n]) : nowhere;
+  }
+  Boxes<kDim, T> boxes;
   alignas(64) T numbers[10][kPadded];  // volume, r, opening, left, dilates
+  alignas(64) T rows[kChunk][16];
   for (int begin = first; begin < last; begin += kChunk) {
     const int count = std::min(kChunk, last - begin);
     for (int q = 0; q < count; q += W::kLanes) {
@@ -137,18 +176,21 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
       select(opening > W(0.0), W(0.0), dilates).store(numbers[9] + q);
     }
     for (int q = 0; q < count; ++q) {
-      alignas(64) T row[16];
-      for (int i = 1; i < 10; ++i) row[6 + i] = numbers[i][q];
-      each_piece<Geometry::kDim>(set, begin + q, corner, [&](int block, int local, double part, const Middle& m) {
-        row[0] = T(1);
-        row[1] = static_cast<T>(m[0]);
-        row[2] = static_cast<T>(m[1]);
-        row[3] = static_cast<T>(m[2]);
-        row[4] = static_cast<T>(m[0] * m[1]);
-        row[5] = static_cast<T>(m[0] * m[2]);
-        row[6] = static_cast<T>(m[1] * m[2]);
-        auto& to = *reinterpret_cast<Sixteen*>(places.sums[block] + local);
-        to += static_cast<T>(part * static_cast<double>(numbers[0][q])) * *reinterpret_cast<const Sixteen*>(row);
+      const T volume = numbers[0][q];
+      for (int i = 0; i < 7; ++i) rows[q][i] = kMoments[i] ? volume : T(0);
+      for (int i = 1; i < 10; ++i) rows[q][6 + i] = volume * numbers[i][q];
+    }
+    boxes.find(set, begin, count, corner);
+    for (int q = 0; q < count; ++q) {
+      const Sixteen row = *reinterpret_cast<const Sixteen*>(rows[q]);
+      Sixteen along[3][2];
+      for (int k = 0; k < kDim; ++k) {
+        for (int piece = 0; piece < 2; ++piece) along[k][piece] = factors(boxes.along[k], q, piece, moments[k]);
+      }
+      each_piece(boxes, q, [&](int block, int local, int a, int b, int c) {
+        Sixteen product = row * along[0][a] * along[1][b];
+        if constexpr (kDim == 3) product *= along[2][c];
+        to[block][local] += product;
       });
     }
   }
@@ -161,16 +203,30 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
   using Eight = typename Rows<T>::Eight;
   constexpr int kNumbers = 18;
   static_assert(sizeof(SoilMotion<T>) >= 24 * sizeof(T));
+  constexpr int kDim = Geometry::kDim;
+  static const SoilMotion<T> kNowhere[kDim == 3 ? 64 : 16] = {};
+  const SoilMotion<T>* from[27];
+  for (int n = 0; n < (kDim == 3 ? 27 : 9); ++n) {
+    from[n] = places.motion[n] != nullptr ? places.motion[n] : kNowhere;
+  }
+  Boxes<kDim, T> boxes;
   alignas(64) T numbers[kNumbers][kPadded] = {};
+  alignas(64) T rows[kChunk][24];
   for (int begin = first; begin < last; begin += kChunk) {
     const int count = std::min(kChunk, last - begin);
+    boxes.find(set, begin, count, corner);
     for (int q = 0; q < count; ++q) {
       Eight sums[3] = {};
-      each_piece<Geometry::kDim>(set, begin + q, corner, [&](int block, int local, double part, const Middle&) {
-        const Eight* from = reinterpret_cast<const Eight*>(places.motion[block] + local);
-        for (int i = 0; i < 3; ++i) sums[i] += static_cast<T>(part) * from[i];
+      each_piece(boxes, q, [&](int block, int local, int a, int b, int c) {
+        T part = boxes.along[0].part[a][q] * boxes.along[1].part[b][q];
+        if constexpr (kDim == 3) part *= boxes.along[2].part[c][q];
+        const Eight* cell = reinterpret_cast<const Eight*>(from[block] + local);
+        for (int i = 0; i < 3; ++i) sums[i] += part * cell[i];
       });
-      for (int i = 0; i < kNumbers; ++i) numbers[i][q] = sums[i / 8][i % 8];
+      for (int i = 0; i < 3; ++i) *reinterpret_cast<Eight*>(rows[q] + 8 * i) = sums[i];
+    }
+    for (int i = 0; i < kNumbers; ++i) {
+      for (int q = 0; q < count; ++q) numbers[i][q] = rows[q][i];
     }
     for (int q = 0; q < count; q += W::kLanes) {
       const int p = begin + q, lanes = count - q;

@@ -71,10 +71,12 @@ TEST(ImplicitStep, SoilAtRestStays) {
     const std::vector<double> x = verification::field(run, "x"), z = verification::field(run, "z");
     verification::run_until(run, 10.0);
     const std::vector<double> x_after = verification::field(run, "x"), z_after = verification::field(run, "z");
+    double farthest = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      ASSERT_NEAR(x_after[i], x[i], 5e-5) << step;
-      ASSERT_NEAR(z_after[i], z[i], 5e-5) << step;
+      farthest = std::max({farthest, std::abs(x_after[i] - x[i]), std::abs(z_after[i] - z[i])});
     }
+    EXPECT_LT(farthest, 5e-5) << step;
+    RecordProperty(fmt::format("farthest_{}", step), fmt::format("{:.3g}", farthest));
   }
 }
 

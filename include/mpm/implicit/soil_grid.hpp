@@ -54,7 +54,7 @@ class SoilGrid {
   template <class Test>
   bool any_around(int block, Test&& test) const {
     const int count = neighbours();
-    for (const int* at = &around_[static_cast<std::size_t>(count) * block], *end = at + count; at != end; ++at) {
+    for (const int *at = &around_[static_cast<std::size_t>(count) * block], *end = at + count; at != end; ++at) {
       if (*at >= 0 && test(*at)) return true;
     }
     return false;

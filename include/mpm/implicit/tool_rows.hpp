@@ -65,8 +65,8 @@ class ToolRows {
   /// Sum of the impulses' magnitudes [N s].
   double pressed() const;
   /// The largest mean pressure on the points of a body in contact at the start of the step, of a body that has moved
-  /// far the less [Pa]: the stiffness of the soil shows while it is loaded, over the first kShort cells, and seldom when
-  /// what fails has failed before.
+  /// far the less [Pa]: the stiffness of the soil shows while it is loaded, over the first kShort cells, and seldom
+  /// when what fails has failed before.
   double pressure_to_resolve() const { return pressure_; }
   /// Books the impulses, with the nodes as they are now, gives free bodies the velocities that they have left them, and
   /// keeps them for the next step.

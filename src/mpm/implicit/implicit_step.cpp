@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <chrono>
 
 #include "mpm/grid/each_share.hpp"
 #include "mpm/kernel/select.hpp"
@@ -16,11 +15,12 @@ constexpr int kLeastSweeps = 10, kMostSweeps = 100;
 constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
 constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
 constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
-constexpr double kForceError = 0.02;    ///< change of the forces on tools in the last half of the sweeps, over the forces
-constexpr int kWholeSweeps = 2;        ///< that take all blocks, whether they need it or not
-constexpr double kQuiet = 0.1;         ///< part of a block's share of kSettled below which it is not swept again
-constexpr double kKept = 0.9;          ///< of the sweeps of the step before, at the least
-constexpr double kLightest = 1e-6;     ///< of a cell full of soil: what is added to a node's mass in the solve
+constexpr double kForceError = 0.02;  ///< change of the forces on tools in the last half of the sweeps, over the forces
+constexpr int kWholeSweeps = 2;       ///< that take all blocks, whether they need it or not
+constexpr double kQuiet =
+    0.1;                       ///< part of a block's share of what is left to settle, below which it is not swept again
+constexpr double kKept = 0.9;  ///< of the sweeps of the step before, at the least
+constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
 class ImplicitStep final : public Stage, public ContactReporter {
@@ -41,6 +41,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
     lightest_ = kLightest * cells_.least_density() * volume;
     light_.name = "implicit/light_nodes";
+    pressed_.reserve(settings.sweeps.value_or(kMostSweeps) + 1);
   }
 
   std::string name() const override { return kImplicitName; }
@@ -158,13 +159,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
       const bool backwards = sweeps_ % 2 == 1;
       if (sweeps_ >= kWholeSweeps) find_stirred();
-      const auto t0 = std::chrono::steady_clock::now();
-      struct Rep { double t = 0; long n = 0; ~Rep() { fprintf(stderr, "SWEEP %.1f us, %ld\n", t / n * 1e6, n); } };
-      static Rep rep;
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
         if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
       });
-      rep.t += std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count(); rep.n++;
       meet();
       ++sweeps_;
       const double now = tools_.pressed();
@@ -182,10 +179,13 @@ class ImplicitStep final : public Stage, public ContactReporter {
   /// Blocks in which, or beside which, the last sweep has changed more than a block's share of what may be left: the
   /// others need no sweep until their neighbours change.
   void find_stirred() {
-    double size = 0.0;
-    for (const mpm_kernel::SweepChange& one : changes_) size += one.size;
+    double size = 0.0, change = 0.0;
+    for (const mpm_kernel::SweepChange& one : changes_) {
+      size += one.size;
+      change += one.change;
+    }
     const int blocks = static_cast<int>(changes_.size());
-    const double share = kQuiet * kSettled * kSettled * size / blocks;
+    const double share = kQuiet * std::min(kSettled * kSettled * size, change) / blocks;
     for (int block = 0; block < blocks; ++block) {
       stirred_[block] = soil_grid_.any_around(block, [&](int near) { return changes_[near].change > share; }) ? 1 : 0;
     }

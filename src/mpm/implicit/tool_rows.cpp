@@ -9,10 +9,10 @@
 namespace mpm {
 namespace {
 
-constexpr double kApart = 0.5;      ///< cells between points
-constexpr double kClearance = 0.6;  ///< cells from a convex edge
+constexpr double kApart = 0.5;               ///< cells between points
+constexpr double kClearance = 0.6;           ///< cells from a convex edge
 constexpr double kShort = 1.5, kLong = 6.0;  ///< cells of travel (pressure_to_resolve())
-constexpr double kPresent = 0.2;    ///< of the soil's density, from which on a point is in contact
+constexpr double kPresent = 0.2;             ///< of the soil's density, from which on a point is in contact
 
 double at_least_zero(double value) { return std::max(value, 0.0); }
 

@@ -12,6 +12,12 @@
 
 namespace mpm {
 
+/// A node, by its block and its index in that block.
+struct NodeRef {
+  int block;
+  int node;
+};
+
 class NodalField {
  public:
   NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
@@ -101,6 +107,8 @@ struct Grid {
   std::vector<std::uint8_t> loose;
   /// Per block: whether it counts on another rank; empty where there is none.
   std::vector<std::uint8_t> elsewhere;
+  /// Nodes that material asleep beside them holds at rest (sleep/sleep_border.hpp).
+  std::vector<NodeRef> at_rest;
   NodalField mass;       ///< m_i [kg]
   NodalField momentum;   ///< p_i as gathered, before conditions; valid until XPIC or the next gathering uses it [N s]
   NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]

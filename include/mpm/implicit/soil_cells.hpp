@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm/implicit/held_impulses.hpp"
 #include "mpm/implicit/soil_grid.hpp"
 #include "mpm/implicit/soil_law.hpp"
 #include "mpm/kernel/soil_cells.hpp"
@@ -61,8 +62,8 @@ class SoilCells {
   Group* groups(int block) { return groups_.data() + begin_[block]; }
   const mpm_kernel::SoilMask<T>* masks() const { return masks_.data(); }
 
-  /// What stresses give to the components of velocity that walls hold [N s], in the order of kWallNames.
-  void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
+  /// Adds what stresses give to the components of velocity that are held.
+  void add_to_held(HeldImpulses& held) const;
   /// The least initial density of the soils [kg/m^3].
   double least_density() const { return least_density_; }
 

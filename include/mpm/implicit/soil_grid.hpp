@@ -18,7 +18,7 @@ namespace mpm {
 
 class SoilGrid {
  public:
-  static constexpr std::uint8_t kFree = 255;
+  static constexpr std::uint8_t kFree = 255, kAtRest = 6;  ///< in place of the number of a wall
 
   /// `walls`: of the domain's faces, in the order of kWallNames.
   SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, int threads);
@@ -36,7 +36,8 @@ class SoilGrid {
   /// Block and number along each axis inside it of the node at `at`, numbers along the grid's axes from the domain's
   /// first node on; false where no block is in use.
   bool find(const std::array<int, 3>& at, int& block, std::array<int, 3>& local) const;
-  /// The wall that holds a node along a world axis, in the order of kWallNames, or kFree.
+  /// The wall that holds a node along a world axis, in the order of kWallNames; kAtRest where
+  /// what is asleep beside it holds it, or kFree.
   std::uint8_t holder(int node, int axis) const { return holders_[3 * static_cast<std::size_t>(node) + axis]; }
   bool held(int node) const {
     const std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(node)];

@@ -17,6 +17,7 @@
 
 #include "mpm/contact/contact_ledger.hpp"
 #include "mpm/contact/free_bodies.hpp"
+#include "mpm/implicit/held_impulses.hpp"
 #include "mpm/implicit/soil_grid.hpp"
 #include "mpm/implicit/surface_samples.hpp"
 #include "mpm/kernel/soil_cells.hpp"
@@ -71,8 +72,8 @@ class ToolRows {
   /// Books the impulses, with the nodes as they are now, gives free bodies the velocities that they have left them, and
   /// keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
-  /// What rows give to the components of velocity that walls hold [N s].
-  void add_to_walls(std::array<std::array<double, 3>, 6>& walls) const;
+  /// Adds what rows give to the components of velocity that are held.
+  void add_to_held(HeldImpulses& held) const;
 
   std::vector<ContactLedger>& ledgers() { return ledgers_; }
   const std::vector<ContactLedger>& ledgers() const { return ledgers_; }
@@ -90,10 +91,10 @@ class ToolRows {
     double area;
     double weight[mpm_kernel::kCellNodes];  ///< of its nodes, whether a wall holds them or not
   };
-  /// What a wall takes of a row, because it holds a node along an axis.
+  /// What a row gives to a component of velocity that is held.
   struct HeldPart {
-    int row;
-    std::uint8_t wall, axis;
+    int row, node;
+    std::uint8_t holder, axis;
     double weight;
   };
   /// Of each point of a body, what it did in the last step.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm/implicit/held_impulses.hpp"
 #include "mpm/implicit/soil_grid.hpp"
 #include "mpm/kernel/soil_cells.hpp"
 #include "mpm/math/state_archive.hpp"
@@ -21,8 +22,7 @@ class WallRows {
  public:
   using Row = mpm_kernel::WallRow<T>;
   using Node = mpm_kernel::SoilNode<T>;
-  /// Impulses of walls by name, as in kWallNames, and axis [N s].
-  using Impulses = std::array<std::array<double, 3>, 6>;
+  using Impulses = HeldImpulses::OfWalls;
 
   WallRows(const std::array<WallDefinition, 6>& walls, const SoilGrid& grid);
 

@@ -43,7 +43,15 @@ struct SleepParts {
   std::unique_ptr<BlockProbe> probe;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
-  Halo* halo = nullptr;  ///< null for one process
+  bool implicit = false;  ///< whether steps are implicit
+  Halo* halo = nullptr;   ///< null for one process
+};
+
+/// How long what sleep does waits, so that it costs a small part of steps.
+struct SleepPace {
+  std::uint32_t between_looks;  ///< steps
+  std::uint32_t looks_to_wait;  ///< for a sort that others ask for, before one is asked for to fall asleep
+  std::uint32_t steps_to_wait;  ///< for others at the border of unrest, before blocks are woken
 };
 
 class Sleep final : public Stage {
@@ -100,6 +108,7 @@ class Sleep final : public Stage {
   bool tool_near(const std::array<int, 3>& block, double dt) const;
   /// Whether material of another velocity field is near to a block of one.
   bool other_near(int field, std::uint64_t key) const;
+  void find_unrest(StepContext& context);
   void find_unrest(const Grid& grid, SleepBorder& border, double dt);
   void strike_what_sets_off(StepContext& context);
   Taken hold(Grid& grid, const SleepBorder& border, double dt);
@@ -107,6 +116,7 @@ class Sleep final : public Stage {
 
   SleepDefinition definition_;
   SleepParts parts_;
+  SleepPace pace_;
   const GridLayout& layout_;
   SleepingBlocks asleep_;
   RestWatch watch_;

@@ -43,7 +43,8 @@ class SleepBorder {
     double lost = 0.0;   ///< mean force without balance over that of the block asleep and the node's weight
   };
   /// At a node, once the forces are gathered. `part`: of the mean, that this step makes anew.
-  static Unrest find_unrest(Node& node, const Grid& grid, const Vec3& gravity, double part);
+  /// `of_awake`: the internal force of what is awake [N].
+  static Unrest find_unrest(Node& node, const Grid& grid, const Vec3& of_awake, const Vec3& gravity, double part);
 
   /// The mean of the force without balance at a node, as ranks tell each other of it.
   struct Mean {

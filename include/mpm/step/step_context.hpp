@@ -25,12 +25,6 @@ struct FieldContext {
   double strain_at_start = 0.5;  ///< as in StepContext
 };
 
-/// A node, by its block and its index in that block.
-struct NodeRef {
-  int block;
-  int node;
-};
-
 inline Vec3 nodal_vector(const NodalField& field, const GridLayout& layout, NodeRef n) {
   Vec3 v = Vec3::Zero();
   for (int k = 0; k < layout.dim(); ++k) v[layout.axis(k)] = field.at(n.block, k, n.node);

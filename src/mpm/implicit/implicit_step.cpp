@@ -36,7 +36,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
         cells_(std::move(parts.bodies), soil_grid_, settings.threads),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
                {settings.geometry, settings.across, cells_.least_density(), settings.threads, settings.gravity}),
-        walls_(settings.walls, soil_grid_) {
+        walls_(settings.walls, soil_grid_),
+        held_(grid_) {
     double volume = settings.across;
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
     lightest_ = kLightest * cells_.least_density() * volume;
@@ -193,9 +194,10 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   /// Gives the grid the velocities that were found, and books what walls took.
   void store(double dt) {
-    typename WallRows<T>::Impulses held{};
-    cells_.add_to_walls(held);
-    tools_.add_to_walls(held);
+    held_.clear();
+    cells_.add_to_held(held_);
+    tools_.add_to_held(held_);
+    typename WallRows<T>::Impulses held = held_.walls();
     for (auto& wall : held) {
       for (double& one : wall) one = -one;
     }
@@ -234,11 +236,17 @@ class ImplicitStep final : public Stage, public ContactReporter {
         const int axis = layout.axis(k);
         double& velocity = grid_.velocity.at(block, k, n);
         const double start = grid_.momentum.at(block, k, n) / mass;
-        const std::uint8_t wall = soil_grid_.holder(number, axis);
-        const double found = wall == SoilGrid::kFree ? static_cast<double>(nodes_[number].v[axis]) : 0.0;
+        double& force = grid_.force.at(block, k, n);
+        const std::uint8_t holder = soil_grid_.holder(number, axis);
+        if (holder == SoilGrid::kAtRest) {  // what is asleep stops it from there
+          velocity += force / mass;
+          force = (velocity - start) / dt;
+          continue;
+        }
+        const double found = holder == SoilGrid::kFree ? static_cast<double>(nodes_[number].v[axis]) : 0.0;
         const double by_sweeps = found - velocity;
-        if (wall != SoilGrid::kFree) {
-          deeds.held[wall][axis] += mass * by_sweeps;
+        if (holder != SoilGrid::kFree) {
+          deeds.held[holder][axis] += mass * by_sweeps;
         } else {
           deeds.light[axis] -= lightest_ * by_sweeps;
         }
@@ -246,7 +254,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         const double change = found - start;
         deeds.taken += 0.5 * mass * change * change;
         velocity = found;
-        grid_.force.at(block, k, n) = change / dt;
+        force = change / dt;
       }
     }
     return deeds;
@@ -260,6 +268,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   SoilCells<T> cells_;
   ToolRows<T> tools_;
   WallRows<T> walls_;
+  HeldImpulses held_;
   std::vector<Node> nodes_;
   double lightest_ = 0.0;  ///< [kg]
   ImpulseAccount light_;   ///< what light nodes were not given

@@ -276,7 +276,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
 }
 
 template <class T>
-void SoilCells<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) const {
+void SoilCells<T>::add_to_held(HeldImpulses& held) const {
   for (const Group& group : groups_) {
     if (group.mask < 0) continue;
     for (int lane = 0; lane < mpm_kernel::kGroupCells; ++lane) {
@@ -291,8 +291,8 @@ void SoilCells<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) con
         const double force[3] = {s.xx * x + s.xy * y + s.xz * z, s.xy * x + s.yy * y + s.yz * z,
                                  s.xz * x + s.yz * y + s.zz * z};  // a unit of volume, with tension positive
         for (int k = 0; k < 3; ++k) {
-          const std::uint8_t wall = grid_.holder(node, k);
-          if (wall != SoilGrid::kFree) walls[wall][k] -= static_cast<double>(group.push[lane]) * force[k];
+          const std::uint8_t holder = grid_.holder(node, k);
+          if (holder != SoilGrid::kFree) held.add(node, k, holder, -static_cast<double>(group.push[lane]) * force[k]);
         }
       }
     }

@@ -90,6 +90,12 @@ void SoilGrid::find_held() {
       }
     }
   }
+  for (const NodeRef& rests : grid_.at_rest) {
+    std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(rests.block * per_block + rests.node)];
+    for (int a = 0; a < 3; ++a) {
+      if (own[a] == kFree) own[a] = kAtRest;
+    }
+  }
 }
 
 int SoilGrid::corner(int block, const std::array<int, 3>& local, int corner) const {

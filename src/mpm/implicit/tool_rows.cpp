@@ -211,9 +211,9 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
       Node& node = nodes[row.node[e]];
       for (int a = 0; a < 3; ++a) {
         node.v[a] += node.inverse_mass * row.weight[e][a] * row.impulse[a];
-        const std::uint8_t wall = grid_.holder(row.node[e], a);
-        if (wall == SoilGrid::kFree || places_[i].weight[e] == 0.0) continue;
-        held_.push_back({static_cast<int>(i), wall, static_cast<std::uint8_t>(a), places_[i].weight[e]});
+        const std::uint8_t holder = grid_.holder(row.node[e], a);
+        if (holder == SoilGrid::kFree || places_[i].weight[e] == 0.0) continue;
+        held_.push_back({static_cast<int>(i), row.node[e], holder, static_cast<std::uint8_t>(a), places_[i].weight[e]});
       }
     }
   }
@@ -274,9 +274,11 @@ void ToolRows<T>::look_at_loads(double dt) {
 }
 
 template <class T>
-void ToolRows<T>::add_to_walls(std::array<std::array<double, 3>, 6>& walls) const {
-  for (const HeldPart& held : held_)
-    walls[held.wall][held.axis] += held.weight * static_cast<double>(rows_[held.row].impulse[held.axis]);
+void ToolRows<T>::add_to_held(HeldImpulses& held) const {
+  for (const HeldPart& part : held_) {
+    const double impulse = static_cast<double>(rows_[part.row].impulse[part.axis]);
+    held.add(part.node, part.axis, part.holder, part.weight * impulse);
+  }
 }
 
 template <class T>

@@ -138,7 +138,7 @@ Fault other_part(const SimulationDefinition& d) {
   };
   if (!d.conditions.empty()) return leave_out("conditions");
   if (!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()) return leave_out("loads");
-  if (d.sleep) return leave_out("sleep");
+  if (d.sleep && d.sleep->damping > 0.0) return leave_out("sleep.damping");
   if (!d.transport.quantities.empty()) return leave_out("transport");
   if (d.cracks.any()) return leave_out("cracks");
   if (d.grid.leave_limit > 0) return leave_out("grid.leave");

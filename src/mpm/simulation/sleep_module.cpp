@@ -6,8 +6,14 @@ namespace mpm {
 
 void add_sleep(RunParts& parts) {
   if (!parts.definition.sleep) return;
-  SleepParts needed{parts.fields,  parts.sets, parts.bodies, parts.make_probe(), parts.definition.gravity,
-                    parts.threads, parts.halo};
+  SleepParts needed{parts.fields,
+                    parts.sets,
+                    parts.bodies,
+                    parts.make_probe(),
+                    parts.definition.gravity,
+                    parts.threads,
+                    parts.definition.method.update == UpdateScheme::implicit,
+                    parts.halo};
   parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
 }
 

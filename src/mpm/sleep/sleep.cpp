@@ -11,19 +11,19 @@
 namespace mpm {
 namespace {
 
-constexpr std::uint32_t kStepsBetweenLooks = 8;
-constexpr std::uint32_t kLooksToWait = 4;  ///< for a sort that others ask for, before one is asked for to fall asleep
-constexpr std::uint32_t kStepsToWait = 8;  ///< for others at the border of unrest, before blocks are woken
-constexpr int kWorthThreads = 1000;        ///< nodes
-constexpr double kNearTool = 4.0;          ///< cells: nearer to a tool nothing sleeps
-constexpr double kAtOnce = 3.0;            ///< times `wake`, from which on a block wakes after this step
-constexpr double kSlowNodes = 4.0;         ///< of the speed of sleep, below which nodes are damped
+constexpr SleepPace kExplicit{8, 4, 8};
+constexpr SleepPace kImplicit{1, 1, 1};  // of which one costs as much as many of the others
+constexpr int kWorthThreads = 1000;      ///< nodes
+constexpr double kNearTool = 4.0;        ///< cells: nearer to a tool nothing sleeps
+constexpr double kAtOnce = 3.0;          ///< times `wake`, from which on a block wakes after this step
+constexpr double kSlowNodes = 4.0;       ///< of the speed of sleep, below which nodes are damped
 
 }  // namespace
 
 Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
     : definition_(definition),
       parts_(std::move(parts)),
+      pace_(parts_.implicit ? kImplicit : kExplicit),
       layout_(parts_.fields.front()->layout),
       asleep_(parts_.sets, layout_),
       watch_(definition.speed, definition.after),
@@ -40,7 +40,7 @@ bool Sleep::tool_near(const std::array<int, 3>& block, double dt) const {
     // How far its surface comes until the next look.
     const Vec3 size = bounds.size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
     const double speed = body.twist().linear.norm() + size.norm() * body.twist().angular.norm();
-    const double margin = kNearTool * layout_.largest_cell() + kStepsBetweenLooks * dt * speed;
+    const double margin = kNearTool * layout_.largest_cell() + pace_.between_looks * dt * speed;
     SurfacePoint point;
     if (bounds.intersects(box.grown(margin)) &&
         body.surface().within(body.pose().to_body(box.center()), half + margin, point)) {
@@ -86,7 +86,10 @@ void Sleep::follow_sort(const StepContext& context) {
     just_read_ = false;
   }
   for (std::size_t f = 0; f < borders_.size(); ++f) {
-    borders_[f].find(static_cast<int>(f), *context.fields[f], asleep_, parts_.halo);
+    Grid& grid = *context.fields[f];
+    borders_[f].find(static_cast<int>(f), grid, asleep_, parts_.halo);
+    grid.at_rest.clear();
+    for (const SleepBorder::Node& node : borders_[f].nodes()) grid.at_rest.push_back(node.ref);
   }
 }
 
@@ -111,9 +114,9 @@ void Sleep::momentum_gathered(StepContext& context) {
   follow_sort(context);
   if (!begun_ && definition_.from_start) {
     watch_.trust_all();
-    looks_waited_ = kLooksToWait;
+    looks_waited_ = pace_.looks_to_wait;
   }
-  if (begun_ && ++steps_ < kStepsBetweenLooks) return;
+  if (begun_ && ++steps_ < pace_.between_looks) return;
   if (across_ ? across_->ranks().any(!sleepers_.empty()) : !sleepers_.empty()) ++looks_waited_;
   steps_ = 0;
   sleepers_.clear();
@@ -130,8 +133,8 @@ void Sleep::before_strain(StepContext& context) {
 }
 
 bool Sleep::needs_sort() const {
-  if (!to_wake_.empty() && (at_once_ || steps_waited_ >= kStepsToWait)) return true;
-  return !sleepers_.empty() && looks_waited_ >= kLooksToWait;
+  if (!to_wake_.empty() && (at_once_ || steps_waited_ >= pace_.steps_to_wait)) return true;
+  return !sleepers_.empty() && looks_waited_ >= pace_.looks_to_wait;
 }
 
 void Sleep::find_unrest(const Grid& grid, SleepBorder& border, double dt) {
@@ -142,7 +145,10 @@ void Sleep::find_unrest(const Grid& grid, SleepBorder& border, double dt) {
 #pragma omp parallel for schedule(static) num_threads(parts_.threads) if (count > kWorthThreads)
   for (int i = 0; i < count; ++i) {
     if (!grid.carries(nodes[i].ref.block, nodes[i].ref.node)) continue;
-    unrest_[i] = SleepBorder::find_unrest(nodes[i], grid, parts_.gravity, part);
+    const NodeRef ref = nodes[i].ref;
+    Vec3 of_awake = nodal_vector(grid.force, layout_, ref);
+    if (parts_.implicit) of_awake = grid.mass.at(ref.block, 0, ref.node) * (of_awake - parts_.gravity);
+    unrest_[i] = SleepBorder::find_unrest(nodes[i], grid, of_awake, parts_.gravity, part);
   }
   for (int i = 0; i < count; ++i) {
     const bool wave = unrest_[i].speed > definition_.wake;
@@ -153,6 +159,11 @@ void Sleep::find_unrest(const Grid& grid, SleepBorder& border, double dt) {
 }
 
 void Sleep::forces_gathered(StepContext& context) {
+  if (!parts_.implicit) find_unrest(context);
+}
+
+// In an implicit step forces are known with the velocities, as accelerations.
+void Sleep::find_unrest(StepContext& context) {
   for (std::size_t f = 0; f < borders_.size(); ++f) find_unrest(*context.fields[f], borders_[f], context.dt);
   if (to_wake_.empty()) return;
   ++steps_waited_;
@@ -200,6 +211,7 @@ Sleep::Taken Sleep::damp(Grid& grid, double dt) {
 }
 
 void Sleep::momentum_updated(StepContext& context) {
+  if (parts_.implicit) find_unrest(context);
   for (std::size_t f = 0; f < borders_.size(); ++f) {
     Grid& grid = *context.fields[f];
     const Taken held = hold(grid, borders_[f], context.dt);
@@ -343,7 +355,7 @@ void Sleep::numbers(std::vector<NamedNumber>& list) const {
 }
 
 void Sleep::limit_step(const PeriodAhead& period, StepLimit& limit) const {
-  if (asleep_.rate() == 0.0) return;
+  if (asleep_.rate() == 0.0 || parts_.implicit) return;
   StepLimit own;
   own.by = this;
   own.dt = period.cfl / asleep_.rate();

@@ -107,11 +107,12 @@ void SleepBorder::add_names(const Node& node, const Grid& grid, std::vector<Bloc
   }
 }
 
-SleepBorder::Unrest SleepBorder::find_unrest(Node& node, const Grid& grid, const Vec3& gravity, double part) {
+SleepBorder::Unrest SleepBorder::find_unrest(Node& node, const Grid& grid, const Vec3& of_awake, const Vec3& gravity,
+                                             double part) {
   const double awake = grid.mass.at(node.ref.block, 0, node.ref.node), mass = awake + node.mass;
   Unrest unrest{nodal_vector(grid.momentum, grid.layout, node.ref).norm() / mass, 0.0};
   if (node.at_wall) return unrest;
-  const Vec3 force = nodal_vector(grid.force, grid.layout, node.ref) + node.force + mass * gravity;
+  const Vec3 force = of_awake + node.force + mass * gravity;
   unrest.speed = std::max(unrest.speed, force.norm() / (mass * node.rate));
   node.mean += part * (force - node.mean);
   const double scale = node.force.norm() + mass * gravity.norm();

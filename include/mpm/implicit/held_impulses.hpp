@@ -1,0 +1,44 @@
+// What a step gives to the components of velocity that do not move: a wall takes it in total, and what lies asleep
+// beside a node takes it from there (sleep/sleep.hpp), which looks at the velocity that the node would have had.
+#pragma once
+
+#include <array>
+
+#include "mpm/implicit/soil_grid.hpp"
+
+namespace mpm {
+
+class HeldImpulses {
+ public:
+  /// Impulses of walls by name, as in kWallNames, and axis [N s].
+  using OfWalls = std::array<std::array<double, 3>, 6>;
+
+  /// `grid` outlives it. Nodes at rest keep theirs in its field of forces.
+  explicit HeldImpulses(Grid& grid) : grid_(grid) {}
+
+  /// Forgets those of the step before.
+  void clear() {
+    walls_ = {};
+    for (const NodeRef& node : grid_.at_rest) {
+      for (int k = 0; k < grid_.layout.dim(); ++k) grid_.force.at(node.block, k, node.node) = 0.0;
+    }
+  }
+  /// `impulse` [N s] is given to a node's component along a world axis, which `holder` holds (SoilGrid::holder()).
+  void add(int node, int axis, std::uint8_t holder, double impulse) {
+    if (holder != SoilGrid::kAtRest) {
+      walls_[holder][axis] += impulse;
+      return;
+    }
+    const int per_block = grid_.layout.nodes_per_block();
+    for (int k = 0; k < grid_.layout.dim(); ++k) {
+      if (grid_.layout.axis(k) == axis) grid_.force.at(node / per_block, k, node % per_block) += impulse;
+    }
+  }
+  const OfWalls& walls() const { return walls_; }
+
+ private:
+  Grid& grid_;
+  OfWalls walls_{};
+};
+
+}  // namespace mpm

@@ -34,6 +34,7 @@ std::string refusal(const std::vector<std::string>& overrides) {
 TEST(ImplicitRules, AcceptWhatTheyHave) {
   EXPECT_EQ(refusal({}), "accepted");
   EXPECT_EQ(refusal({"method.transfer=apic"}), "accepted");
+  EXPECT_EQ(refusal({"sleep={}"}), "accepted");
   EXPECT_EQ(refusal({"rigid_bodies.tool.free={mass: 2}"}), "accepted");
   EXPECT_EQ(refusal({"method.transfer=pic", "method.sweeps=20", "method.precision=single"}), "accepted");
   EXPECT_EQ(refusal({"materials.sand.law=mohr_coulomb", "boundaries.z_min={friction: 0.5}"}), "accepted");
@@ -51,7 +52,7 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"method.sweeps=5", "method.update=usavg"}, "method: sweeps: explicit steps have none"},
       {{"boundaries.x_min=absorbing"}, "boundaries: x_min: "},
       {{"boundaries={x: periodic}"}, "boundaries: x_min: "},
-      {{"sleep={damping: 0.5}"}, "sleep.damping: "},
+      {{"sleep={damping: 0.5}"}, "sleep: damping: "},
       {{"contact={method: nodes}"}, "contact: method: "},
       {{"rigid_bodies.tool.sides=two"}, "rigid_bodies: tool: "},
       {{"loads=[{body_force: {acceleration: [1, 0]}}]"}, "loads: "},

@@ -5,7 +5,8 @@ Forces of the suite are over the exact ones, or, where only bounds or an estimat
 of the folders named places are means over five places of tool and ground within a cell. What is kept is further from 1
 than that, since a robot's tool lies anywhere and is like none of the problems: by two standard deviations over the
 places, and then by a quarter (test/verification/target_promises_test.cpp has tools that the table does not know). Runs with another precision, update or step are told by
-their change of the force that the same run has with double precision, USAVG and cfl 0.5.
+their change of the force that the same run has with double precision, USAVG and cfl 0.5. Of implicit steps, whose base
+is the step of 5 ms, the length over sqrt(cell / gravity) stands in place of cfl.
 
 That of blade_in_soil is its impulse on the blade along the direction of the answer, over the answer: twice that with
 cells of 17.5 mm less that with 35 mm, in double precision with USAVG at cfl 0.5, as for an error of first order in the
@@ -20,10 +21,18 @@ import pathlib
 import sys
 
 BLADE = 0.095  # depth in the ground [m]
+SUITE = 0.2  # length that cells of the suite's problems count across [m]
+GRAVITY = 9.81  # [m/s^2]
+BASE_STEP = "0.005"  # of implicit steps [s]
 FINEST = "12"  # cells of the suite
 OF_OTHERS = 1.25  # errors of other tools over those of the problems, two standard deviations of places included
 KINDS = {"blade": "blade", "strip": "plate", "disc": "plate"}  # use, by the first word of a name
 FINE, COARSE = ("0.0175", "8", "double", "usavg", "0.5"), ("0.035", "8", "double", "usavg", "0.5")
+
+
+def falls(step, cell):
+    """A length of implicit steps [s] over sqrt(cell / gravity), as the table has it."""
+    return f"{float(step) * math.sqrt(GRAVITY / cell):.4g}"
 
 
 def found_in(folder):
@@ -36,6 +45,9 @@ def found_in(folder):
         if run["status"] != "ok":
             continue
         said = dict(part.split("=") for part in run["variant"].split(", ") if part)
+        if run["update"] == "implicit":
+            said["method.update"] = "implicit"
+            said["time.cfl"] = falls(said.get("time.step", BASE_STEP), SUITE / run["cells"])
         along = round(math.sqrt(float(said.get("method.particles_per_cell", 4))))
         key = (run["problem"], f"{run['cells']:g}", along, said.get("method.precision", "double"),
                said.get("method.update", "usavg"), said.get("time.cfl", "0.5"))
@@ -63,16 +75,19 @@ def suite_rows(runs):
         return 1.0 if run["exact"] else finest[(run["problem"], FINEST, 2, *usual)]["over_exact"]
 
     forces = {}
-    for key, run in {**found_in(runs / "places"), **found_in(runs / "places9"), **finest}.items():
+    for key, run in {**found_in(runs / "places"), **found_in(runs / "places9"), **found_in(runs / "implicit_places"),
+                     **finest}.items():
         off = run["over_exact"] / answer(run) - 1.0
         force = 1.0 + math.copysign(OF_OTHERS * (abs(off) + 2.0 * (run.get("spread") or 0.0)), off)
         forces[key] = force
         if run["exact"] or key[1] != FINEST:  # what is compared with itself tells nothing
             keep(key, force, run)
-    knobs = found_in(runs / "knobs")
-    for key, run in knobs.items():
-        base = (*key[:3], *usual)
-        keep(key, forces[base] * run["over_exact"] / knobs[base]["over_exact"], run)
+    for knobs in (found_in(runs / "knobs"), found_in(runs / "implicit_knobs")):
+        for key, run in knobs.items():
+            base = (*key[:3], *usual)
+            if run["update"] == "implicit":
+                base = (*key[:3], "double", "implicit", falls(BASE_STEP, SUITE / run["cells"]))
+            keep(key, forces[base] * run["over_exact"] / knobs[base]["over_exact"], run)
     return rows
 
 
@@ -88,6 +103,8 @@ def summaries(runs, scene):
 def row_of(scene, axes, length, key, force):
     """A row of the table: key and values."""
     cell, particles, precision, update, cfl = key
+    if update == "implicit":
+        cfl = falls(cfl, float(cell))
     along = round(float(particles) ** (1.0 / axes))
     use = KINDS[scene.split("_")[0]]
     return (scene, use, "sand", axes, f"{length / float(cell):.4g}", along, precision, update, cfl), (force, None)

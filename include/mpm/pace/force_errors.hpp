@@ -17,6 +17,9 @@
 // from the smallest cfl of the table on, in proportion between two of them. The whole is the root of the sum of the
 // squares, as of errors that do not depend on each other.
 //
+// Of implicit steps `cfl` is their length over sqrt(cell / gravity); their reference is double and the shortest step of
+// a run's grid, and their update adds nothing, since it has figures of its own.
+//
 // Weak: as good as the problems, whose tools are slow.
 #pragma once
 
@@ -60,7 +63,7 @@ struct ForceRun {
   int along = 2;
   Precision precision = Precision::float64;
   UpdateScheme update = UpdateScheme::usavg;
-  double cfl = 0.5;
+  double cfl = 0.5;    ///< of an implicit step its length over sqrt(cell / gravity)
   double force = 1.0;  ///< over the answer
   double cost = 0.0;   ///< of a particle's step, one thread [ns]; 0 where it was not timed
 };
@@ -81,15 +84,19 @@ class ForceErrors {
   /// measured, or so many particles in a cell that none were. Finer than the finest counts as that.
   /// A scene with less than three axes is judged by problems with two.
   std::optional<ForceError> of(const Discretisation& one, const ToolInGround& tool, GeometryKind geometry) const;
-  /// True if a run with such a tool in such a ground, as far as they are known, was measured on any grid.
-  bool covers(const ToolInGround& tool, GeometryKind geometry) const;
+  /// True if a run with such a tool in such a ground, as far as they are known, was measured on any grid with such
+  /// steps.
+  bool covers(const ToolInGround& tool, GeometryKind geometry, bool implicit = false) const;
   /// Cost of a particle's step over that in double precision with USAVG: 1 where there is no figure.
   double cost_factor(Precision precision, UpdateScheme update) const;
 
  private:
-  std::optional<double> grid_error(const ToolInGround& tool, int axes, double cells, int along) const;
+  /// Whether a run is one that others of its kind of steps are compared with.
+  bool reference(const ForceRun& run) const;
+  std::optional<double> grid_error(const ToolInGround& tool, int axes, double cells, int along, bool implicit) const;
   double change(int axes, Precision precision, UpdateScheme update) const;
-  double step_error(int axes, double cfl) const;
+  /// `family`: of steps, implicit or USAVG.
+  double step_error(int axes, double cfl, UpdateScheme family) const;
 
   std::vector<ForceRun> runs_;
 };

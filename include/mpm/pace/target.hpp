@@ -5,8 +5,9 @@
 // reaches the target, the one that comes nearest is taken, within that error where there is one. Errors that differ by
 // less than kSameError of the force count as the same, and so do paces within kSamePace; then the faster one, or the
 // more exact one, is taken. The pace is arithmetic: a step costs as its particles do, for each precision and update at
-// the cost that was timed on the scene; steps to a sync period are whole. Weak: a coarse grid's step costs more than
-// its particles do, so what is chosen should be timed itself.
+// the cost that was timed on the scene; steps to a sync period are whole, and implicit ones shorter where a tool would
+// cross half a cell. Weak: a coarse grid's step costs more than its particles do, so what is chosen should be timed
+// itself.
 #pragma once
 
 #include <functional>
@@ -62,9 +63,12 @@ struct StepCosts {
   double sync = 0.0;           ///< period of sync points [s]
   double wave_time = 0.0;      ///< in which the fastest wave crosses a cell of the base, by its shortest edge [s]
   std::optional<double> step;  ///< upper limit of the step [s]
+  double fastest = 0.0;        ///< speed of a tool's surface, which limits implicit steps [m/s]
   /// Of one particle's step in the base's grid [s].
   std::function<double(Precision, UpdateScheme)> particle_step;
 
+  /// In a sync period.
+  double steps(const Discretisation& one) const;
   /// Simulated over wall time.
   double pace(const Discretisation& one) const;
 };

@@ -15,7 +15,8 @@
 //
 // Not chosen, unless the scene names them: dirac, because any motion through the grid makes its forces jump; and where
 // material flows, other shapes than ugimp and other transfers than flip, because the study's problems are elastic. A
-// shape, update or transfer that the scene names is kept. Without a table of measurements the choice is ugimp, usavg,
+// shape, update or transfer that the scene names is kept. Soil with slow tools takes implicit steps, which the study
+// does not have (implicit_choice.hpp). Without a table of measurements the choice is ugimp, usavg,
 // flip.
 #pragma once
 
@@ -32,6 +33,8 @@ struct AutoMethod {
   std::optional<double> strain, turn;  ///< largest expected [-], [rad]; without a value it is estimated from the scene
   choice::Budget budget{0.01, {}};
   bool keep_shape = false, keep_update = false, keep_transfer = false;  ///< named in the scene
+  bool names_transfer = false;  ///< keep_transfer, and not because of the material
+  bool names_more = false;      ///< a strain, a turn or a budget, which the study of explicit steps answers
 };
 
 /// A table of measurements, or the reason why there is none.

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "mpm/implicit/implicit_step.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 
@@ -32,14 +35,25 @@ int particles(int along, GeometryKind geometry) {
 
 }  // namespace
 
+double falls_of(double step, const Vec3& cell, const SimulationDefinition& definition) {
+  double edge = std::numeric_limits<double>::infinity();
+  for (const int axis : axes_of(definition.geometry)) edge = std::min(edge, cell[axis]);
+  return step * std::sqrt(definition.gravity.norm() / edge);
+}
+
 Discretisation discretisation_of(const SimulationDefinition& definition) {
-  return {definition.grid.cell, definition.method.particles_per_direction, definition.method.precision,
-          definition.method.update, definition.time.cfl};
+  Discretisation own{definition.grid.cell, definition.method.particles_per_direction, definition.method.precision,
+                     definition.method.update, definition.time.cfl};
+  if (own.update == UpdateScheme::implicit) {
+    own.step = std::min(definition.time.step.value_or(kImplicitStep), 1e-9 * static_cast<double>(definition.time.sync));
+    own.falls = falls_of(own.step, own.cell, definition);
+  }
+  return own;
 }
 
 const std::vector<std::string>& discretisation_keys() {
-  static const std::vector<std::string> keys = {"grid.cell", "method.particles_per_cell", "method.precision",
-                                                "method.update", "time.cfl"};
+  static const std::vector<std::string> keys = {
+      "grid.cell", "method.particles_per_cell", "method.precision", "method.update", "time.cfl", "time.step"};
   return keys;
 }
 
@@ -51,6 +65,7 @@ std::vector<std::string> set_lines(const Discretisation& chosen, const Discretis
   if (chosen.precision != before.precision)
     lines.push_back(fmt::format("method.precision={}", precision_name(chosen.precision)));
   if (chosen.update != before.update) lines.push_back(fmt::format("method.update={}", update_name(chosen.update)));
+  if (chosen.step != before.step) lines.push_back(fmt::format("time.step={:.15g}", chosen.step));
   if (chosen.cfl != before.cfl) lines.push_back(fmt::format("time.cfl={:.15g}", chosen.cfl));
   return lines;
 }
@@ -58,9 +73,10 @@ std::vector<std::string> set_lines(const Discretisation& chosen, const Discretis
 std::string discretisation_text(const Discretisation& one, GeometryKind geometry) {
   Vec3 cell = one.cell;
   for (const int axis : axes_of(geometry)) cell[axis] = std::stod(fmt::format("{:.4g}", one.cell[axis]));
-  return fmt::format("cell {}, {} particle{} a cell, {}, {}, cfl {:.3g}", cell_text(cell, geometry),
-                     particles(one.along, geometry), one.along == 1 ? "" : "s", precision_name(one.precision),
-                     update_name(one.update), one.cfl);
+  return fmt::format(
+      "cell {}, {} particle{} a cell, {}, {}, {}", cell_text(cell, geometry), particles(one.along, geometry),
+      one.along == 1 ? "" : "s", precision_name(one.precision), update_name(one.update),
+      one.implicit() ? fmt::format("steps of {:.3g} ms", 1e3 * one.step) : fmt::format("cfl {:.3g}", one.cfl));
 }
 
 double safe_cfl(const Transfer& transfer) { return kPartOfStable * stable_cfl(transfer); }

@@ -22,7 +22,9 @@ constexpr double kSame = 1e-6;  ///< part by which cells and steps of two runs m
 
 bool same(double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); }
 
-bool reference(const ForceRun& run) {
+bool is_implicit(const ForceRun& run) { return run.update == UpdateScheme::implicit; }
+
+bool explicit_reference(const ForceRun& run) {
   return run.precision == Precision::float64 && run.update == UpdateScheme::usavg && same(run.cfl, kReferenceCfl);
 }
 
@@ -120,14 +122,22 @@ ForceRun parse_run(const std::string& line) {
 }  // namespace
 
 ForceErrors::ForceErrors(std::vector<ForceRun> runs) : runs_(std::move(runs)) {
-  if (std::none_of(runs_.begin(), runs_.end(), reference))
+  if (std::none_of(runs_.begin(), runs_.end(), explicit_reference))
     throw FiguresError("no run in double precision with usavg and cfl 0.5, which the others are compared with");
 }
 
-std::optional<double> ForceErrors::grid_error(const ToolInGround& tool, int axes, double cells, int along) const {
+bool ForceErrors::reference(const ForceRun& run) const {
+  if (!is_implicit(run)) return explicit_reference(run);
+  return run.precision == Precision::float64 && std::none_of(runs_.begin(), runs_.end(), [&](const ForceRun& other) {
+           return is_implicit(other) && same_grid(run, other) && other.cfl < run.cfl * (1.0 - kSame);
+         });
+}
+
+std::optional<double> ForceErrors::grid_error(const ToolInGround& tool, int axes, double cells, int along,
+                                              bool implicit) const {
   std::map<std::string, std::vector<std::pair<double, double>>> problems;
   for (const ForceRun& run : runs_) {
-    if (run.axes == axes && run.along == along && reference(run) && is_like(run, tool))
+    if (run.axes == axes && run.along == along && is_implicit(run) == implicit && is_like(run, tool) && reference(run))
       problems[run.problem].emplace_back(run.cells, std::max(kLeastError, std::abs(run.force - 1.0)));
   }
   double largest = 0.0;
@@ -148,16 +158,16 @@ double ForceErrors::change(int axes, Precision precision, UpdateScheme update) c
     if (run.axes != axes || run.precision != precision || run.update != update || !same(run.cfl, kReferenceCfl))
       continue;
     for (const ForceRun& other : runs_) {
-      if (same_grid(run, other) && reference(other)) mean.add(run.force / other.force - 1.0);
+      if (same_grid(run, other) && explicit_reference(other)) mean.add(run.force / other.force - 1.0);
     }
   }
   return mean.root();
 }
 
-double ForceErrors::step_error(int axes, double cfl) const {
+double ForceErrors::step_error(int axes, double cfl, UpdateScheme family) const {
   std::map<double, MeanSquare> by_cfl;
   for (const ForceRun& run : runs_) {
-    if (run.axes != axes || run.precision != Precision::float64 || run.update != UpdateScheme::usavg) continue;
+    if (run.axes != axes || run.precision != Precision::float64 || run.update != family) continue;
     const ForceRun* least = nullptr;
     for (const ForceRun& other : runs_) {
       const bool comparable = same_grid(run, other) && other.precision == run.precision && other.update == run.update;
@@ -176,9 +186,9 @@ double ForceErrors::step_error(int axes, double cfl) const {
   return before_cfl > 0.0 ? before * cfl / before_cfl : 0.0;
 }
 
-bool ForceErrors::covers(const ToolInGround& tool, GeometryKind geometry) const {
+bool ForceErrors::covers(const ToolInGround& tool, GeometryKind geometry, bool implicit) const {
   return std::any_of(runs_.begin(), runs_.end(), [&](const ForceRun& run) {
-    return run.axes == axes_of_grid(geometry) && reference(run) && is_like(run, tool);
+    return run.axes == axes_of_grid(geometry) && is_implicit(run) == implicit && is_like(run, tool) && reference(run);
   });
 }
 
@@ -187,12 +197,14 @@ std::optional<ForceError> ForceErrors::of(const Discretisation& one, const ToolI
   const int axes = axes_of_grid(geometry);
   double widest = 0.0;
   for (const int axis : mpm::axes_of(geometry)) widest = std::max(widest, one.cell[axis]);
-  const std::optional<double> grid = grid_error(tool, axes, tool.length / widest, one.along);
+  const std::optional<double> grid = grid_error(tool, axes, tool.length / widest, one.along, one.implicit());
   if (!grid) return std::nullopt;
+  const double rounding = change(axes, one.precision, UpdateScheme::usavg);
+  if (one.implicit()) return ForceError{*grid, rounding, 0.0, step_error(axes, one.falls, UpdateScheme::implicit)};
   // USL is of first order in the step as USF is, and has no figures of its own.
   const UpdateScheme update = one.update == UpdateScheme::usl ? UpdateScheme::usf : one.update;
-  return ForceError{*grid, change(axes, one.precision, UpdateScheme::usavg), change(axes, Precision::float64, update),
-                    step_error(axes, one.cfl)};
+  return ForceError{*grid, rounding, change(axes, Precision::float64, update),
+                    step_error(axes, one.cfl, UpdateScheme::usavg)};
 }
 
 double ForceErrors::cost_factor(Precision precision, UpdateScheme update) const {

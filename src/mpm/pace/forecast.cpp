@@ -7,6 +7,12 @@
 
 namespace mpm::pace {
 
+namespace {
+
+constexpr int kUsualSweeps = 30;  ///< of an implicit step in the mean of blade_in_soil and wheel_in_sand
+
+}  // namespace
+
 std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, std::optional<Isa> isa, double budget,
                                   const std::function<bool()>& stop) {
   StepTimer timer(budget, stop);
@@ -16,6 +22,9 @@ std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, 
   options.settle = false;
   options.stop = [&timer] { return timer.after_step(); };
   options.interrupt = [&timer] { return timer.over_budget(); };
+  // What has not settled falls in its first implicit steps, which takes more sweeps than are usual.
+  if (definition.method.update == UpdateScheme::implicit && !definition.method.sweeps)
+    definition.method.sweeps = kUsualSweeps;
   Forecast forecast;
   forecast.simulated = definition.time.end;
   forecast.sleeps = definition.sleep.has_value();

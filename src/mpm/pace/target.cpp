@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/implicit/implicit_step.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 
@@ -13,7 +14,8 @@ namespace mpm::pace {
 
 namespace {
 
-constexpr std::size_t kMostRows = 16;  ///< of the front that a table shows
+constexpr std::size_t kMostRows = 16;                                  ///< of the front that a table shows
+constexpr std::array<double, 3> kImplicitSteps = {0.005, 0.01, 0.02};  ///< that there are figures for [s]
 
 double shortest_edge(const Vec3& cell, GeometryKind geometry) {
   double least = cell.x();
@@ -22,7 +24,8 @@ double shortest_edge(const Vec3& cell, GeometryKind geometry) {
 }
 
 bool identical(const Discretisation& a, const Discretisation& b) {
-  return a.cell == b.cell && a.along == b.along && a.precision == b.precision && a.update == b.update && a.cfl == b.cfl;
+  return a.cell == b.cell && a.along == b.along && a.precision == b.precision && a.update == b.update &&
+         a.cfl == b.cfl && a.step == b.step;
 }
 
 /// The values of a part of the discretisation: that of the scene, and the others where it may be changed.
@@ -33,6 +36,14 @@ std::vector<T> values(bool keeps, T own, const std::vector<T>& others) {
     if (!keeps && std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
   }
   return all;
+}
+
+std::vector<std::pair<double, double>> pairs_of(const std::vector<double>& first, const std::vector<double>& second) {
+  std::vector<std::pair<double, double>> pairs;
+  for (const double a : first) {
+    for (const double b : second) pairs.emplace_back(a, b);
+  }
+  return pairs;
 }
 
 /// The largest of several tools; nothing where one has no figures.
@@ -84,15 +95,23 @@ std::string target_text(const Target& target) {
                           : fmt::format("force_error: {:g} %", 100.0 * target.force_error.value_or(0.0));
 }
 
+double StepCosts::steps(const Discretisation& one) const {
+  const double edge = shortest_edge(one.cell, geometry);
+  double longest = one.step;
+  if (!one.implicit()) {
+    longest = std::min(one.cfl * wave_time * edge / shortest_edge(base.cell, geometry), step.value_or(sync));
+  } else if (fastest > 0.0) {
+    longest = std::min(longest, kImplicitTravel * edge / fastest);
+  }
+  return std::max(1.0, std::ceil(sync / longest - 1e-9));
+}
+
 double StepCosts::pace(const Discretisation& one) const {
   double count = particles;
   for (const int axis : axes_of(geometry)) {
     count *= base.cell[axis] / one.cell[axis] * static_cast<double>(one.along) / static_cast<double>(base.along);
   }
-  const double edge = shortest_edge(one.cell, geometry) / shortest_edge(base.cell, geometry);
-  const double longest = std::min(one.cfl * wave_time * edge, step.value_or(sync));
-  const double steps = std::max(1.0, std::ceil(sync / longest - 1e-9));
-  return sync / (steps * count * particle_step(one.precision, one.update));
+  return sync / (steps(one) * count * particle_step(one.precision, one.update));
 }
 
 std::vector<Candidate> candidates(const Target& target, const std::vector<ToolInGround>& tools,
@@ -103,10 +122,17 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<ToolIn
   const double safe = safe_cfl(definition.method.transfer);
   const auto precisions =
       values(target.keeps("method.precision"), own.precision, {Precision::float64, Precision::float32});
-  const auto updates = values(target.keeps("method.update"), own.update, {UpdateScheme::usavg, UpdateScheme::usf});
+  // Soil whose steps are implicit has them for a reason, and so have others that are not.
+  const auto updates =
+      values(target.keeps("method.update") || own.implicit(), own.update, {UpdateScheme::usavg, UpdateScheme::usf});
+  std::vector<double> shorter;
+  for (const double step : kImplicitSteps) {
+    if (own.implicit() && step <= costs.sync * (1.0 + 1e-9)) shorter.push_back(step);
+  }
+  const auto steps = values(target.keeps("time.step"), own.step, shorter);
   std::vector<double> lower;
   for (const double cfl : {0.3, 0.5, 0.7, safe}) {
-    if (cfl <= safe) lower.push_back(cfl);
+    if (cfl <= safe && !own.implicit()) lower.push_back(cfl);
   }
   const auto cfls = values(target.keeps("time.cfl"), own.cfl, lower);
   std::vector<Candidate> all;
@@ -119,9 +145,9 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<ToolIn
         method.precision = precision;
         method.update = update;
         if (method_fault(method, definition.geometry)) continue;
-        for (const double cfl : cfls) {
+        for (const auto& [cfl, step] : pairs_of(cfls, steps)) {
           Candidate one;
-          one.what = {cell, along, precision, update, cfl};
+          one.what = {cell, along, precision, update, cfl, step, falls_of(step, cell, definition)};
           const auto error = largest_error(errors, one.what, tools, definition.geometry);
           if (!error) continue;
           one.error = *error;

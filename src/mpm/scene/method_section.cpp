@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mpm/math/lanes.hpp"
+#include "mpm/scene/implicit_choice.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
@@ -25,13 +26,6 @@ const Transfer kTransferOfSoil = [] {
   transfer.flip = 0.6;
   transfer.mixed = 2;
   transfer.every = 5;
-  return transfer;
-}();
-
-// That of implicit steps (doc/implicit.md): APIC lets columns run too far, PIC stops them too early.
-const Transfer kTransferOfImplicit = [] {
-  Transfer transfer;
-  transfer.flip = 0.95;
   return transfer;
 }();
 
@@ -155,6 +149,7 @@ void read_axis(const Value& value, Scene& scene) {
 AutoMethod read_auto(const Value& value, const Scene& scene) {
   const Map map(value, {"strain", "turn", "error", "cost"});
   AutoMethod asked;
+  asked.names_more = value.node().size() > 0;
   if (const auto strain = map.find("strain")) asked.strain = strain->non_negative(kPlain);
   if (const auto turn = map.find("turn")) {
     if (scene.definition.geometry == GeometryKind::line) turn->fail("nothing turns in a line; leave it out");
@@ -268,7 +263,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   const bool part_of_pic = damping && damping->is_map() && damping->node()["pic"];
   const bool implicit = method.update == UpdateScheme::implicit;
   if (implicit && !transfer) {
-    method.transfer = kTransferOfImplicit;
+    method.transfer = transfer_of_implicit();
     scene.choices.emplace_back(
         "method.transfer", fmt::format("{}: what implicit steps were measured with", transfer_text(method.transfer)));
   }
@@ -282,6 +277,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     chosen_later->keep_shape = shape.has_value();
     chosen_later->keep_update = update.has_value();
     chosen_later->keep_transfer = kept;
+    chosen_later->names_transfer = transfer.has_value() || part_of_pic;
   }
   if (const auto average = map.find("average_dilatation")) {
     method.average_dilatation = average->choice({"false", "true"}) == 1;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mpm/implicit/implicit_step.hpp"
+#include "mpm/scene/implicit_choice.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
@@ -135,13 +135,11 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_boundaries(root, scene);
   read_loads(root, scene);
   read_time_and_output(root, scene);
-  if (definition.method.update == UpdateScheme::implicit && !definition.time.step) {
-    definition.time.step = kImplicitStep;
-    scene.choices.emplace_back("time.step", fmt::format("{:g} s, as implicit steps last", kImplicitStep));
-  }
+  if (definition.method.update == UpdateScheme::implicit && !definition.time.step) take_implicit_step(scene);
   read_sleep(root, scene);
   read_transport(root, scene);
   read_cracks(root, scene);
+  const bool takes_implicit = asked && choose_implicit(*asked, root, scene);
   tell_of_averages(scene);
   read_metrics(root, scene);
   read_target(root, scene);
@@ -158,7 +156,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
     const auto named = root.find(section);
     (named ? *named : root.at("method")).fail(rest);
   }
-  if (asked) choose_method(*asked, load_method_costs(), scene);
+  if (asked && !takes_implicit) choose_method(*asked, load_method_costs(), scene);
   scene.text = asked ? with_method(source.root(), definition.method) : source.dump();
   return scene;
 }

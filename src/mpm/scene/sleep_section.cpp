@@ -5,38 +5,14 @@
 #include <cmath>
 
 #include "mpm/scene/sections.hpp"
+#include "mpm/scene/tool_motion.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kOfFall = 0.01;     ///< default speed: of that after a free fall of half a cell
-constexpr double kWake = 3.0;        ///< default of `wake`, in speeds
-constexpr double kFromMotion = 10;   ///< what the scene moves on purpose has to be so many times as fast
-constexpr double kWhile = 10.0;      ///< of a run without an end, that motions are looked at [s]
-constexpr int kLooksAtMotion = 100;  ///< of a motion over the run
-
-/// The highest speed of a tool's surface, as far as its functions of time tell it; 0: at rest. A run without an end is
-/// looked at for a while.
-double speed_of(const RigidBodyDefinition& body, double end) {
-  const double length = end > 0.0 ? end : kWhile;
-  // Along an axis without end, as y in a plane, it does not turn.
-  const Vec3 size = body.surface->bounds().size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
-  const double arm = 0.5 * size.norm();
-  double highest = 0.0;
-  for (int i = 0; i <= kLooksAtMotion; ++i) {
-    Vec3 velocity, turning;
-    try {
-      for (std::size_t k = 0; k < 3; ++k) {
-        velocity[static_cast<int>(k)] = body.velocity[k](length * i / kLooksAtMotion);
-        turning[static_cast<int>(k)] = body.rotation_rate[k](length * i / kLooksAtMotion);
-      }
-    } catch (const FunctionError&) {
-      continue;  // whoever moves the body says so
-    }
-    highest = std::max(highest, velocity.norm() + arm * turning.norm());
-  }
-  return highest;
-}
+constexpr double kOfFall = 0.01;    ///< default speed: of that after a free fall of half a cell
+constexpr double kWake = 3.0;       ///< default of `wake`, in speeds
+constexpr double kFromMotion = 10;  ///< what the scene moves on purpose has to be so many times as fast
 
 /// The highest speed of a body at the start, at the corners and the middle of its bounds.
 double speed_of(const BodyDefinition& body) {
@@ -66,7 +42,7 @@ void check_motion(const Value& where, const Scene& scene) {
                     what, speed, sleep.speed, speed / kFromMotion));
   };
   for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) {
-    const double speed = speed_of(body, scene.definition.time.end);
+    const double speed = tool_motion(body, scene.definition).fastest;
     if (speed > 0.0 && speed < kFromMotion * sleep.speed) refuse(fmt::format("rigid body '{}'", body.name), speed);
   }
   for (const BodyDefinition& body : scene.bodies) {

@@ -99,9 +99,6 @@ void read_target(const Map& root, Scene& scene) {
   if (!section) return;
   const Map map(*section, {"real_time", "force_error", "keep", "tool", "length", "symmetric", "chosen", "before",
                            "asked", "expected"});
-  if (scene.definition.method.update == UpdateScheme::implicit) {
-    section->fail("no figures say yet what implicit steps cost and err; leave it out, or use method.update: usavg");
-  }
   pace::Target& target = scene.target.emplace();
   const auto real_time = map.find("real_time"), error = map.find("force_error");
   if (real_time && error) {

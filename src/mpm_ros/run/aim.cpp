@@ -18,6 +18,7 @@
 #include "mpm/scene/target_choice.hpp"
 #include "mpm/scene/target_half.hpp"
 #include "mpm/scene/target_record.hpp"
+#include "mpm/scene/tool_motion.hpp"
 #include "mpm_ros/run/judged_tools.hpp"
 #include "mpm_ros/run/scene_rehearsal.hpp"
 
@@ -199,7 +200,9 @@ class Chooser {
     costs_.particles = static_cast<double>(usual->particles);
     costs_.sync = 1e-9 * static_cast<double>(scene.definition.time.sync);
     costs_.step = scene.definition.time.step;
-    costs_.wave_time = mpm::wave_step(scene).dt / scene.definition.time.cfl;
+    for (const mpm::RigidBodyDefinition& body : scene.definition.rigid_bodies)
+      costs_.fastest = std::max(costs_.fastest, mpm::tool_motion(body, scene.definition).fastest);
+    costs_.wave_time = mpm::wave_step(scene).dt / scene.definition.time.cfl;  // infinite with implicit steps
     rehearsal_ = rehearse_scene(scene, *usual, isa_, kLong, stop_, true);
     const double own = seconds_of(*usual);
     const Discretisation base = costs_.base;
@@ -209,8 +212,10 @@ class Chooser {
       return std::pair(static_cast<int>(precision), static_cast<int>(update));
     };
     timed[place(base.precision, base.update)] = own;
+    std::vector<mpm::UpdateScheme> updates = {mpm::UpdateScheme::usavg, mpm::UpdateScheme::usf};
+    if (own_.implicit()) updates = {own_.update};
     for (const mpm::Precision precision : {mpm::Precision::float64, mpm::Precision::float32}) {
-      for (const mpm::UpdateScheme update : {mpm::UpdateScheme::usavg, mpm::UpdateScheme::usf}) {
+      for (const mpm::UpdateScheme update : updates) {
         if (target_.keeps("method.precision") && precision != own_.precision) continue;
         if (target_.keeps("method.update") && update != own_.update) continue;
         if (timed.count(place(precision, update)) > 0) continue;
@@ -237,11 +242,7 @@ class Chooser {
 
   /// Of a particle's step, such that StepCosts::pace() gives the pace that is expected of the whole run [s].
   double seconds_of(const Forecast& forecast) const {
-    const double steps = std::max(1.0, std::ceil(costs_sync_steps() - 1e-9));
-    return costs_.sync / (steps * static_cast<double>(forecast.particles) * pace_of(forecast));
-  }
-  double costs_sync_steps() const {
-    return costs_.sync / std::min(costs_.base.cfl * costs_.wave_time, costs_.step.value_or(costs_.sync));
+    return costs_.sync / (costs_.steps(costs_.base) * static_cast<double>(forecast.particles) * pace_of(forecast));
   }
 
   /// The pace that is expected of the whole run.

@@ -33,6 +33,7 @@ JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace:
                          const mpm::pace::ForceErrors& errors) {
   const mpm::pace::Target& target = *scene.target;
   const mpm::GeometryKind geometry = scene.definition.geometry;
+  const bool implicit = scene.definition.method.update == mpm::UpdateScheme::implicit;
   const std::optional<mpm::pace::Ground> ground = mpm::ground_of(scene.definition);
   JudgedTools tools;
   if (rehearsal) {
@@ -53,7 +54,7 @@ JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace:
   // How deep a blade that no rehearsal found in the ground will dig is not known.
   const bool has_length = target.length || !tools.names.front().empty() || target.use == mpm::pace::ToolUse::plate;
   for (ToolInGround& tool : tools.all) {
-    if (has_length && tool.use && ground && errors.covers(tool, geometry)) continue;
+    if (has_length && tool.use && ground && errors.covers(tool, geometry, implicit)) continue;
     tools.unknown = fmt::format("a {} in {}{}", name_of(tool.use),
                                 ground ? mpm::pace::kGroundNames[static_cast<int>(*ground)] : "other material",
                                 mpm::dimensions(geometry) == 3 ? ", in space" : "");
@@ -66,7 +67,7 @@ JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace:
           fmt::format("{}: target.force_error: no error was measured for {}, so none can be promised; {}", scene.path,
                       tools.unknown, remedy));
     }
-    const bool known_ground = errors.covers({{}, ground, whole}, geometry);
+    const bool known_ground = errors.covers({{}, ground, whole}, geometry, implicit);
     tool = {{}, known_ground ? ground : std::nullopt, whole};
   }
   return tools;

@@ -1,4 +1,5 @@
-// Runs problems of the suite on grids and in variants, and measures what came of each.
+// Runs problems of the suite on grids and in variants, and measures what came of each: with explicit steps, unless a
+// variant has "method={update: implicit}".
 //
 // Processor time is that of stepping, on one thread, as the clock of the process counts it: for a comparison close
 // everything else. The geostatic start is not in it.

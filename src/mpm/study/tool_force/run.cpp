@@ -39,7 +39,12 @@ struct Run {
   Place place;
   Overrides keys;  ///< of the scene
 
-  Scene scene() const { return parse_scene(moved(problem, problem.scene(problem, setup), place), problem.name, keys); }
+  /// With explicit steps, unless a variant names others.
+  Scene scene() const {
+    Overrides all = {"method={update: usavg}"};
+    all.insert(all.end(), keys.begin(), keys.end());
+    return parse_scene(moved(problem, problem.scene(problem, setup), place), problem.name, all);
+  }
 };
 
 /// The value of "name=value", if it is that.

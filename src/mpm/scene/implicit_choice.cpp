@@ -1,0 +1,98 @@
+#include "mpm/scene/implicit_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mpm/implicit/implicit_step.hpp"
+#include "mpm/pace/tool_use.hpp"
+#include "mpm/scene/feasible.hpp"
+#include "mpm/scene/sections.hpp"
+#include "mpm/scene/tool_motion.hpp"
+#include "mpm/simulation/implicit_rules.hpp"
+#include "mpm/simulation/method_text.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kWorth = 3.0;  ///< explicit steps that an implicit one has to span
+
+/// The word of target.tool, or none.
+std::string use_of_tools(const Map& root) {
+  const auto target = root.find("target");
+  if (!target || !target->is_map()) return {};
+  const YAML::Node use = target->node()["tool"];
+  return use && use.IsScalar() ? use.Scalar() : "";
+}
+
+bool fits(const RigidBodyDefinition& body, const std::string& use, const SimulationDefinition& definition) {
+  const ToolMotion motion = tool_motion(body, definition);
+  double cell = definition.grid.cell[0];
+  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
+  const double step = definition.time.step.value_or(kImplicitStep);
+  if (!(motion.fastest * step < kFastTravel * cell)) return false;
+  if (!use.empty()) return use != pace::kToolUseNames[static_cast<int>(pace::ToolUse::plate)];
+  if (body.free) return motion.turns;
+  return motion.is_told && motion.across > motion.along;
+}
+
+/// What rules look at of bodies that are not built yet.
+std::vector<DeformableBody> unbuilt(const Scene& scene) {
+  std::vector<DeformableBody> bodies;
+  for (const BodyDefinition& one : scene.bodies) {
+    bodies.emplace_back();
+    bodies.back().name = one.name;
+    bodies.back().material = one.material;
+  }
+  return bodies;
+}
+
+/// Whether two bodies of material have a law of contact, for which each has velocities of its own.
+bool has_pairs(const Scene& scene) {
+  const auto is_rigid = [&](const std::string& name) {
+    const auto& bodies = scene.definition.rigid_bodies;
+    return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) { return body.name == name; });
+  };
+  const auto& pairs = scene.definition.contact.pairs;
+  return std::any_of(pairs.begin(), pairs.end(), [&](const PairDefinition& pair) { return !is_rigid(pair.second); });
+}
+
+}  // namespace
+
+// APIC lets columns run too far, PIC stops them too early (doc/implicit.md).
+Transfer transfer_of_implicit() {
+  Transfer transfer;
+  transfer.flip = 0.95;
+  return transfer;
+}
+
+void take_implicit_step(Scene& scene) {
+  scene.definition.time.step = kImplicitStep;
+  scene.choices.emplace_back("time.step", fmt::format("{:g} s, as implicit steps last", kImplicitStep));
+}
+
+bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
+  const SimulationDefinition& before = scene.definition;
+  if (asked.keep_update || asked.names_more || before.rigid_bodies.empty()) return false;
+  SimulationDefinition after = before;
+  after.method.update = UpdateScheme::implicit;
+  if (!asked.names_transfer) after.method.transfer = transfer_of_implicit();
+  after.bodies = unbuilt(scene);
+  if (has_pairs(scene) || implicit_fault(after)) return false;
+  const std::string use = use_of_tools(root);
+  const auto fits_all = [&](const RigidBodyDefinition& body) { return fits(body, use, before); };
+  if (!std::all_of(before.rigid_bodies.begin(), before.rigid_bodies.end(), fits_all)) return false;
+  const double step = before.time.step.value_or(kImplicitStep), explicit_step = wave_step(scene).dt;
+  if (!(step > kWorth * explicit_step)) return false;
+  scene.definition.method = after.method;
+  const auto is_transfer = [](const auto& choice) { return choice.first == "method.transfer"; };  // of explicit steps
+  scene.choices.erase(std::remove_if(scene.choices.begin(), scene.choices.end(), is_transfer), scene.choices.end());
+  scene.choices.emplace_back(
+      "method", fmt::format("{}, {}, {}: soil with slow tools, where a step may last as long as {:.0f} explicit ones",
+                            shape_name(after.method.shape), update_name(after.method.update),
+                            transfer_text(after.method.transfer), step / explicit_step));
+  if (!before.time.step) take_implicit_step(scene);
+  return true;
+}
+
+}  // namespace mpm

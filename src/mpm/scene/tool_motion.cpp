@@ -1,0 +1,41 @@
+#include "mpm/scene/tool_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+constexpr double kWhile = 10.0;      ///< of a run without an end, that motions are looked at [s]
+constexpr int kLooksAtMotion = 100;  ///< of a motion over the run
+
+}  // namespace
+
+ToolMotion tool_motion(const RigidBodyDefinition& body, const SimulationDefinition& definition) {
+  const double length = definition.time.end > 0.0 ? definition.time.end : kWhile;
+  // Along an axis without end, as y in a plane, it does not turn.
+  const Vec3 size = body.surface->bounds().size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
+  const double arm = 0.5 * size.norm();
+  const Vec3 down = definition.gravity.normalized();  // zero where there is none
+  ToolMotion motion;
+  for (int i = 0; i <= kLooksAtMotion; ++i) {
+    Vec3 velocity, turning;
+    try {
+      for (std::size_t k = 0; k < 3; ++k) {
+        velocity[static_cast<int>(k)] = body.velocity[k](length * i / kLooksAtMotion);
+        turning[static_cast<int>(k)] = body.rotation_rate[k](length * i / kLooksAtMotion);
+      }
+    } catch (const FunctionError&) {
+      continue;
+    }
+    motion.fastest = std::max(motion.fastest, velocity.norm() + arm * turning.norm());
+    motion.turns = motion.turns || turning.norm() > 0.0;
+    const double along = velocity.dot(down);
+    motion.along += std::abs(along) * length / kLooksAtMotion;
+    motion.across += (velocity - along * down).norm() * length / kLooksAtMotion;
+  }
+  motion.is_told = motion.fastest > 0.0;
+  return motion;
+}
+
+}  // namespace mpm

@@ -7,9 +7,8 @@
 // there on alone; least() says how long that takes.
 //
 // What that costs the force is estimated by how much it changed in the last half of the sweeps. This change tells less
-// than the error, since a step begins with the impulses of the step before, which were cut, too: the error is about 1.5
-// times the change where a step makes the sweeps that it needs (ImplicitStep::sweeps_needed), and grows as it makes
-// less of them. doc/implicit.md has how well this tells the error.
+// than the error, since a step begins with the impulses of the step before, which were cut, too: the error was found to
+// be 2.4 times the change with one sweep a millisecond, and less with more of them (doc/loop.md).
 //
 // Steps that were cut so, and their sweeps, are all that a run owes to the clock: a run that is given them by repeat()
 // makes the same bits, and asks no clock.
@@ -37,7 +36,7 @@ struct CutStep {
 
 /// What the sweeps of a step came to.
 struct SweepsMade {
-  int sweeps = 0, needed = 0;
+  int sweeps = 0;
   double force = 0.0;   ///< pressed on all tools together, over the step [N s]
   double change = 0.0;  ///< of that in the last half of the sweeps [N s]
 };
@@ -97,6 +96,7 @@ class SweepBudget {
   int periods_ = 0;                  ///< in least_
   double open_ = 0.0, force_ = 0.0;  ///< error and force of the last few steps, in the mean [N s]
   std::uint64_t all_cut_ = 0;        ///< since the start of the run
+  double dt_ = 0.0;                  ///< of the step under way [s]
   std::vector<CutStep> cut_;
   double cut_error_ = 0.0;
   std::optional<std::vector<CutStep>> recorded_;

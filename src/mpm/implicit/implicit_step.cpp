@@ -182,7 +182,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
       }
       settled = change <= kSettled * kSettled * size && change_ <= kForceError;
     }
-    if (budget != nullptr) budget->end_sweeps({sweeps_, least_, pressed_.back(), change_ * pressed_.back()});
+    if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
   }
 
   /// Blocks in which, or beside which, the last sweep has changed more than a block's share of what may be left: the

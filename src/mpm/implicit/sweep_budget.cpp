@@ -10,7 +10,8 @@ constexpr double kForget = 0.1;        ///< of what was foreseen too long, a tim
 constexpr double kMostAtOnce = 2.0;    ///< what was foreseen grows so much at once: a machine that was away comes back
 constexpr int kKnown = 20;             ///< sync periods until least() is known; the first ones fill memory
 constexpr double kRecent = 0.05;       ///< weight of the last sync period in least(), when many are known
-constexpr double kOfChange = 1.5;      ///< error of the force over its change, in a step with the sweeps that it needs
+constexpr double kOfChange = 2.4;      ///< error of the force over its change, with
+constexpr double kUsual = 1000.0;      ///< sweeps a second of simulated time
 constexpr double kLastSteps = 0.2;     ///< weight of the last step in the error
 constexpr std::size_t kOfPeriod = 64;  ///< cut steps of a sync period that have their place from the start
 
@@ -56,6 +57,7 @@ void SweepBudget::end_period() {
 
 void SweepBudget::begin_sweeps(double start, double dt) {
   ++step_;
+  dt_ = dt;
   ended_here_ = false;
   if (repeats()) return;
   sweeps_at_ = Clock::now();
@@ -89,8 +91,8 @@ bool SweepBudget::recorded_ends_after(int sweeps) const {
 }
 
 void SweepBudget::end_sweeps(const SweepsMade& made) {
-  const double part = static_cast<double>(made.needed) / made.sweeps;
-  open_ += kLastSteps * (kOfChange * std::max(part, 1.0) * made.change - open_);
+  const double of_change = std::max(kOfChange * kUsual * dt_ / made.sweeps, 1.0);
+  open_ += kLastSteps * (of_change * made.change - open_);
   force_ += kLastSteps * (made.force - force_);
   if (ended_here_) {
     ++all_cut_;

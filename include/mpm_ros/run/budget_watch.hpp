@@ -11,7 +11,7 @@
 
 namespace mpm_ros {
 
-/// "7.2 ms"
+/// "7.2 ms"; from a second on "1.5 s".
 std::string milliseconds(double seconds);
 
 /// That ten sweeps do not fit, with the numbers; empty where they do, or it is not known yet.

@@ -13,7 +13,9 @@ constexpr double kRoom = 1.2;  ///< proposed over least: no two sync periods tak
 
 }  // namespace
 
-std::string milliseconds(double seconds) { return fmt::format("{:.3g} ms", 1e3 * seconds); }
+std::string milliseconds(double seconds) {
+  return seconds < 1.0 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds);
+}
 
 std::string short_budget(const mpm::SweepBudget& budget) {
   const std::optional<double> least = budget.least();

@@ -68,8 +68,9 @@ class SweepBudget {
   std::optional<double> least() const;
   /// Steps cut in the last sync period.
   const std::vector<CutStep>& cut() const { return cut_; }
-  /// Estimated error of the force on tools, over the force, in the last few steps.
-  double error() const { return force_ > 0.0 ? open_ / force_ : 0.0; }
+  /// Estimated error of the force on tools in the last few steps, over the force, or a tenth of the largest that was
+  /// met where that is more: of a tool that hardly touches nothing is known. 1 at most.
+  double error() const;
   /// The largest such error at a step that was cut in the last sync period; 0 where none was.
   double cut_error() const { return cut_error_; }
 
@@ -95,6 +96,7 @@ class SweepBudget {
   double least_ = 0.0;
   int periods_ = 0;                  ///< in least_
   double open_ = 0.0, force_ = 0.0;  ///< error and force of the last few steps, in the mean [N s]
+  double largest_ = 0.0;             ///< of force_ so far
   std::uint64_t all_cut_ = 0;        ///< since the start of the run
   double dt_ = 0.0;                  ///< of the step under way [s]
   std::vector<CutStep> cut_;

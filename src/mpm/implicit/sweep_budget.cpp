@@ -12,6 +12,7 @@ constexpr int kKnown = 20;             ///< sync periods until least() is known;
 constexpr double kRecent = 0.05;       ///< weight of the last sync period in least(), when many are known
 constexpr double kOfChange = 2.4;      ///< error of the force over its change, with
 constexpr double kUsual = 1000.0;      ///< sweeps a second of simulated time
+constexpr double kOfLargest = 0.1;     ///< of the largest force met: errors of less are measured by that
 constexpr double kLastSteps = 0.2;     ///< weight of the last step in the error
 constexpr std::size_t kOfPeriod = 64;  ///< cut steps of a sync period that have their place from the start
 
@@ -94,6 +95,7 @@ void SweepBudget::end_sweeps(const SweepsMade& made) {
   const double of_change = std::max(kOfChange * kUsual * dt_ / made.sweeps, 1.0);
   open_ += kLastSteps * (of_change * made.change - open_);
   force_ += kLastSteps * (made.force - force_);
+  largest_ = std::max(largest_, force_);
   if (ended_here_) {
     ++all_cut_;
     cut_.push_back({step_, made.sweeps});
@@ -106,6 +108,11 @@ void SweepBudget::end_sweeps(const SweepsMade& made) {
   more_ += seconds_of(done_at_ - sweeps_at_) * beyond / made.sweeps;
 }
 
+double SweepBudget::error() const {
+  const double force = std::max(force_, kOfLargest * largest_);
+  return force > 0.0 ? std::min(open_ / force, 1.0) : 0.0;
+}
+
 void SweepBudget::numbers(std::vector<NamedNumber>& list) const {
   list.push_back({"sweeps_cut", "1", static_cast<double>(all_cut_)});
   list.push_back({"sweep_error", "1", error()});
@@ -115,6 +122,7 @@ void SweepBudget::serialise(StateArchive& archive) {
   archive.value("cut", all_cut_);
   archive.value("open", open_);
   archive.value("force", force_);
+  archive.value("largest", largest_);
 }
 
 std::optional<double> SweepBudget::least() const {

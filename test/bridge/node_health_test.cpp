@@ -51,6 +51,29 @@ TEST(SolverHealth, IsOkWhileItRuns) {
   EXPECT_EQ(value_of(status, "particles outside (one ends the run)"), "0");
 }
 
+// For ten seconds after a sync period whose sweeps were ended too soon, by the largest error in them.
+TEST(SolverHealth, WarnsOfForcesThatABudgetMakesWorse) {
+  NodeHealth health;
+  const auto told = [&](double error) {
+    SolverHealth solver = running();
+    solver.cut_error = error;
+    health.set_solver(solver);
+    Status status;
+    health.fill_solver(status);
+    return status;
+  };
+  EXPECT_EQ(told(0.04).level, DiagnosticStatus::OK);
+  EXPECT_EQ(told(0.12).level, DiagnosticStatus::WARN);
+  EXPECT_TRUE(health.take_news());
+  for (const double later : {0.08, 0.0}) {
+    EXPECT_EQ(told(later).level, DiagnosticStatus::WARN);
+    EXPECT_EQ(told(later).message, "running; time.budget has ended sweeps where the force on tools was off by 12 %");
+  }
+  Status status;
+  health.fill_solver(status, NodeHealth::Clock::now() + NodeHealth::kFresh);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+}
+
 TEST(SolverHealth, WarnsWhenParticlesWerePutBack) {
   SolverHealth solver = running();
   EXPECT_EQ(value_of(solver_status(solver), "particles returned"), "0");

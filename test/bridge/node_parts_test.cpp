@@ -169,6 +169,21 @@ TEST(Pacer, DelaysAreCaughtUpWithEvenly) {
   EXPECT_EQ(pacer.given_up(), 0U);
 }
 
+// Of a sync period of 10 ms 3 ms have gone when it begins so late; after a delay of more, 2 ms: so much less time than
+// a period it has while it catches up.
+TEST(Pacer, SaysWhatOfAPeriodHasGone) {
+  Pacer pacer(10'000'000, 1.0);
+  const Pacer::Clock::time_point start{};
+  pacer.restart(start);
+  EXPECT_EQ(pacer.late(start), milliseconds(0));
+  EXPECT_EQ(pacer.late(start + milliseconds(3)), milliseconds(3));
+  EXPECT_EQ(pacer.next(start + milliseconds(6)), start + milliseconds(10));
+  EXPECT_EQ(pacer.late(start + milliseconds(10)), milliseconds(0));
+  EXPECT_EQ(pacer.late(start + milliseconds(9)), milliseconds(0));
+  pacer.next(start + milliseconds(45));
+  EXPECT_EQ(pacer.late(start + milliseconds(45)), milliseconds(2));
+}
+
 TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
   Pacer pacer(10'000'000, 1.0);
   const Pacer::Clock::time_point start{};

@@ -282,6 +282,25 @@ TEST(FromBag, EndsInTheRecordedState) {
   EXPECT_NE(third.out.find("equal to the recorded one"), std::string::npos) << third.out;
 }
 
+// Where the clock has ended sweeps the recording says after how many, and these are made again.
+TEST(FromBag, SweepsEndWhereABudgetHasEndedThem) {
+  const TemporaryFolder folder;
+  RunSceneOptions options;
+  options.scene = data_file("implicit_blade.yaml");
+  options.set = {"time.budget=1 ns"};
+  options.threads = 1;
+  options.bag = folder.file("run.bag");
+  const Outcome first = run(options);
+  EXPECT_EQ(first.result, RunSceneResult::done) << first.err;
+  EXPECT_NE(first.err.find("time.budget: 1e-06 ms is too little: with 10 sweeps in a step"), std::string::npos)
+      << first.err;
+  EXPECT_NE(first.err.find("no two runs have the same bits"), std::string::npos) << first.err;
+  const Outcome again = run(from_bag(options.bag));
+  EXPECT_EQ(again.result, RunSceneResult::done) << again.err;
+  EXPECT_NE(again.out.find("equal to the recorded one"), std::string::npos) << again.out;
+  EXPECT_NE(again.err.find("time.budget: the sweeps of 50 steps end as recorded"), std::string::npos) << again.err;
+}
+
 TEST(FromBag, AnotherRunIsNotCompared) {
   const TemporaryFolder folder;
   press_run(folder.file("run.bag"));

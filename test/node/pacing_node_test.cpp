@@ -10,6 +10,7 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "simulator_process.hpp"
@@ -86,6 +87,32 @@ TEST(Pacing, OverrunsAreCountedAndShown) {
   const auto periods = static_cast<std::uint64_t>(std::llround(last.time / 0.01));
   EXPECT_EQ(last.overruns, periods - 1);
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "slower than asked"));
+}
+
+// A budget of wall time that ten sweeps do not fit in ends no run: it is told of, with the numbers, and in each state.
+TEST(Pacing, ABudgetThatIsTooLittleIsToldOf) {
+  use_sim_time(true);
+  SimulatorProcess simulator({"scene:=" + data_file("implicit_blade.yaml"),
+                              "set:=[time.budget=1 us, time.end=1000, "
+                              "rigid_bodies.blade.motion.velocity=[0.001, 0]]",
+                              "threads:=1"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  Ear<SolverState> states(simulator.name("solver_state"));
+  ASSERT_TRUE(states.hears(50));
+  const SolverState last = states.heard().back();
+  const auto number = [&](const std::string& name) {
+    const auto own = [&](const NamedValue& value) { return value.name == name; };
+    const auto found = std::find_if(last.values.begin(), last.values.end(), own);
+    return found == last.values.end() ? -1.0 : found->value.at(0);
+  };
+  EXPECT_EQ(number("sweeps"), 10.0);
+  EXPECT_EQ(number("sweeps_cut"), static_cast<double>(last.steps));
+  EXPECT_GE(number("sweep_error"), 0.0);
+  EXPECT_EQ(last.cut_steps, std::vector<std::uint64_t>{last.steps});
+  EXPECT_EQ(last.cut_sweeps, std::vector<std::uint32_t>{10});
+  EXPECT_TRUE(diagnosed(diagnostics, simulator, "time.budget: 0.001 ms is too little: with 10 sweeps in a step"));
+  EXPECT_NE(simulator.log().find("time.budget: 0.001 ms is too little"), std::string::npos) << simulator.log();
 }
 
 // What the start says of a run's pace: before it runs, by timing a copy of it in real time alone, which is then kept

@@ -36,6 +36,8 @@ TEST(ImplicitRules, AcceptWhatTheyHave) {
   EXPECT_EQ(refusal({"method.transfer=apic"}), "accepted");
   EXPECT_EQ(refusal({"sleep={}"}), "accepted");
   EXPECT_EQ(refusal({"target={real_time: 1}"}), "accepted");
+  EXPECT_EQ(refusal({"time.budget=8 ms"}), "accepted");
+  EXPECT_EQ(refusal({"time.budget=8 ms", "method.sweeps=11"}), "accepted");
   EXPECT_EQ(refusal({"rigid_bodies.tool.free={mass: 2}"}), "accepted");
   EXPECT_EQ(refusal({"method.transfer=pic", "method.sweeps=20", "method.precision=single"}), "accepted");
   EXPECT_EQ(refusal({"materials.sand.law=mohr_coulomb", "boundaries.z_min={friction: 0.5}"}), "accepted");
@@ -61,6 +63,10 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
        "materials: implicit steps are made for soil of drucker_prager and mohr_coulomb, not for 'sand' (neo_hookean)"},
       {{"method.sweeps=1001"}, "method: sweeps: 1001 is not possible"},
       {{"time.step=0.2"}, "time: step: 0.2 s is too long"},
+      {{"time.budget=8 ms", "method.update=usavg"}, "time: budget: explicit steps have no sweeps"},
+      {{"time.budget=8 ms", "method.sweeps=10"}, "time: budget: it ends no step before 10 sweeps"},
+      {{"time.budget=0"}, "time.budget: "},
+      {{"time.budget=8 kg"}, "time.budget: "},
       {{"contact={pairs: [{between: [bed, tool], friction: 0.3, adhesion: 1 kPa}]}"},
        "rigid_bodies.tool: implicit steps have one coefficient"},
       {{"contact={edges: blunt}"}, "contact: edges: "},

@@ -23,6 +23,7 @@
 
 #include "mpm/contact/contact_reporter.hpp"
 #include "mpm/implicit/soil_cells.hpp"
+#include "mpm/implicit/sweep_budget.hpp"
 #include "mpm/implicit/tool_rows.hpp"
 #include "mpm/implicit/wall_rows.hpp"
 #include "mpm/kernel/isa.hpp"
@@ -45,6 +46,7 @@ struct ImplicitSettings {
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   Isa isa = Isa::plain;
+  SweepBudget* budget = nullptr;  ///< of the sync period that steps are part of; null: they take their time
 };
 
 /// A stage and reporter of contact in one. Sets, bodies and grid outlive it. `laws`: of contact, one for each tool.

@@ -39,10 +39,11 @@ struct GridDefinition {
 };
 
 struct TimeDefinition {
-  double end = 0.0;            ///< [s]; 0 for a node that runs until it is stopped
-  double cfl = 0.5;            ///< fraction of a cell that the fastest wave may travel in a step, in (0, 1)
-  std::optional<double> step;  ///< upper limit of the time step [s]
-  std::int64_t sync = 0;       ///< period of sync points [ns]; commands, services and outputs live on them
+  double end = 0.0;              ///< [s]; 0 for a node that runs until it is stopped
+  double cfl = 0.5;              ///< fraction of a cell that the fastest wave may travel in a step, in (0, 1)
+  std::optional<double> step;    ///< upper limit of the time step [s]
+  std::int64_t sync = 0;         ///< period of sync points [ns]; commands, services and outputs live on them
+  std::optional<double> budget;  ///< wall time of a sync period, at which implicit steps end their sweeps [s]
 };
 
 struct MethodDefinition {

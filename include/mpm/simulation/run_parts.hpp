@@ -10,6 +10,7 @@
 
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/node_choice.hpp"
+#include "mpm/implicit/sweep_budget.hpp"
 #include "mpm/kernel/isa.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/ranks/halo.hpp"
@@ -27,9 +28,10 @@ class HeatSink;
 class ToolSides;
 class TransportedField;
 
-/// Objects that modules share, each made when the first module asks for it.
+/// Objects that modules share with each other or with the run, each made when the first module asks for it.
 struct Services {
   std::unique_ptr<VolumeSurvey> volumes;
+  std::unique_ptr<SweepBudget> budget;  ///< where the scene has one
 };
 
 /// All parts but the lists of text outlive the modules.

@@ -6,6 +6,7 @@
 //   while (simulation.time() < end) { simulation.advance(); auto report = simulation.take_contact(0); … }
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,6 +25,9 @@
 #include "mpm/simulation/report.hpp"
 
 namespace mpm {
+
+struct CutStep;
+class SweepBudget;
 
 /// A definition that cannot be simulated (bad input: exit code 2).
 class DefinitionError : public Error {
@@ -95,7 +99,8 @@ class Simulation {
   std::int64_t sync_period() const;  ///< [ns]
   /// Runs to the next sync point. @throws PhysicsError; the state of the failed step can still be read and saved then,
   /// and advance() throws from there on. @throws StoppedError; advance() throws from there on.
-  void advance();
+  /// `late`: how much of the wall time that a budget gives the sync period has gone already.
+  void advance(std::chrono::steady_clock::duration late = {});
 
   /// Index of a rigid body, or -1.
   int find_body(const std::string& name) const;
@@ -121,6 +126,10 @@ class Simulation {
   /// The explicit cracks and their tips; empty without any.
   std::vector<CrackReport> cracks() const;
   std::vector<CrackTipReport> crack_tips() const;
+  /// What time.budget has done to implicit steps (implicit/sweep_budget.hpp); null without one.
+  const SweepBudget* budget() const;
+  /// Ends the sweeps of these steps as they ended in another run, in place of the clock. Ignored without a budget.
+  void repeat_cuts(const std::vector<CutStep>& steps);
   /// What modules report, as in state().
   std::vector<NamedNumber> numbers() const;
   /// The action of the material on the body since the last call.

@@ -1,7 +1,8 @@
 // What went wrong or should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
 //
 // solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
-// is nearly crushed, particles left the grid and were put back, or the wall clock is not kept up with; else OK.
+// is nearly crushed, particles left the grid and were put back, the wall clock is not kept up with, time.budget is too
+// little for the fewest sweeps, or has made a force on tools worse by more than 5 % in the last ten seconds; else OK.
 // commands: WARN for ten seconds after one was refused, was dropped or made a body jump; as long as a body that was
 // commanded hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its
 // limits; as long as the simulation is behind the clock by which commands are stamped; and once a tf frame of a body
@@ -38,6 +39,8 @@ struct SolverHealth {
   double min_j = 1.0;                                  ///< smallest det F
   std::uint64_t particles = 0;
   std::uint64_t returned = 0;  ///< of them, left the grid since the start and were put back
+  std::string short_budget;    ///< that time.budget is too little, with the numbers; empty: it is not, or there is none
+  double cut_error = 0.0;      ///< of the force on tools where it ended the sweeps of the last sync period; 0: nowhere
 };
 
 /// Commands that were taken, for the status `commands`.
@@ -92,7 +95,7 @@ class NodeHealth {
   std::uint64_t refused() const;
 
   void fill_commands(diagnostic_updater::DiagnosticStatusWrapper& status, Clock::time_point now = Clock::now()) const;
-  void fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status, Clock::time_point now = Clock::now()) const;
   /// True once after something was reported that should be published without delay.
   bool take_news();
 
@@ -115,6 +118,8 @@ class NodeHealth {
 
   mutable std::mutex mutex_;
   SolverHealth solver_;
+  double worst_cut_ = 0.0;  // SolverHealth::cut_error
+  Clock::time_point worst_cut_at_;
   CommandHealth commands_;
   std::map<std::string, Follower> followers_;
   std::uint64_t refused_ = 0;

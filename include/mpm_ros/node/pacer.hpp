@@ -21,6 +21,8 @@ class Pacer {
   /// up with evenly: two sync points are kCatchUp of a period apart at least. One of more than kLargestDebt is given
   /// up.
   Clock::time_point next(Clock::time_point now);
+  /// How much of the wall time of the sync period that is about to be computed has gone at `now`.
+  Clock::duration late(Clock::time_point now) const;
   std::uint64_t overruns() const { return overruns_; }
   /// How often a delay was given up.
   std::uint64_t given_up() const { return given_up_; }
@@ -31,6 +33,11 @@ class Pacer {
   static constexpr double kCatchUp = 0.8;
 
  private:
+  /// The one with that number since start_.
+  Clock::time_point deadline(std::int64_t number) const;
+  /// When the sync period that began at begun_ may end at the soonest.
+  Clock::time_point soonest() const;
+
   const double factor_;
   double period_;            // [ns] of the wall's clock
   Clock::time_point start_;  // deadlines are counted from here, so that no rounding adds up

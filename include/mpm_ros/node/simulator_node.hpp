@@ -83,6 +83,8 @@ class SimulatorNode {
   void start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps, const std::string& resume = {});
   /// Says what runs, at what pace it is expected to, and what the node waits for.
   void tell_start(const std::optional<ExpectedPace>& expected) const;
+  /// Of a scene with a time.budget: where it is longer than a sync period lasts, or commands of a recording come.
+  void tell_budget() const;
   /// With nobody who waits: by a run's first second, how long it will take.
   void tell_pace();
   /// When a delay has been given up: that the run cannot keep its pace, and what would help.

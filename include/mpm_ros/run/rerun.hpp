@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/implicit/sweep_budget.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 
@@ -18,10 +19,11 @@ struct Rerun {
   std::string bag;  ///< path
   RunInfo info;
   std::vector<mpm_ros::Command> commands;
-  std::int64_t end = 0;        ///< [ns] simulated time of the last state recorded
-  std::string state_hash;      ///< of the last state that was recorded with one; empty: none was
-  std::int64_t hashed_at = 0;  ///< [ns] its time
-  bool failed = false;         ///< the physics failed after `end`
+  std::int64_t end = 0;            ///< [ns] simulated time of the last state recorded
+  std::string state_hash;          ///< of the last state that was recorded with one; empty: none was
+  std::int64_t hashed_at = 0;      ///< [ns] its time
+  std::vector<mpm::CutStep> cuts;  ///< steps whose sweeps time.budget ended
+  bool failed = false;             ///< the physics failed after `end`
 };
 
 /// Reads the bag and the parts after it.

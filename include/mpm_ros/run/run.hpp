@@ -16,6 +16,7 @@
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/run/bag_recorder.hpp"
+#include "mpm_ros/run/budget_watch.hpp"
 #include "mpm_ros/run/run_outputs.hpp"
 
 namespace mpm_ros {
@@ -54,10 +55,11 @@ class Run {
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
   void apply(const AppliedCommand& command);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
-  /// @throws mpm::StoppedError; finish() then ends the record with the sync point before.
-  void advance();
+  /// @throws mpm::StoppedError; finish() then ends the record with the sync point before. `late`: as in
+  /// mpm::Simulation::advance().
+  void advance(std::chrono::steady_clock::duration late = {});
   /// What should be known of the run since the last call, a line each: a rigid body that has left the grid, a crack's
-  /// tip that has lost its J or grows no more.
+  /// tip that has lost its J or grows no more, forces that time.budget makes worse.
   std::vector<std::string> take_warnings();
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
@@ -122,6 +124,7 @@ class Run {
     bool no_j = false, stopped = false;
   };
   std::vector<ToldOfTip> told_of_tips_;
+  BudgetWatch budget_watch_;
   std::vector<std::string> warnings_;
   struct Jump {
     std::string what;  ///< as jump_of() says it

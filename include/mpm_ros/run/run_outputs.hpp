@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/implicit/sweep_budget.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
@@ -106,6 +107,8 @@ class RunOutputs {
   /// Throws on all ranks if a sink has failed on one. @throws BagError on the others
   void end_writing();
   void read_contacts();
+  /// Takes the steps that a budget cut in the last sync period.
+  void read_cuts();
   /// Writes what does not change: places of frames, shapes.
   void write_static();
   void write_contacts();
@@ -137,7 +140,8 @@ class RunOutputs {
   Contacts contacts_;
   ContactAverage average_;
   SolverState state_;
-  std::uint64_t applied_ = 0;  // commands
+  std::vector<mpm::CutStep> cuts_;  // since the last solver state
+  std::uint64_t applied_ = 0;       // commands
   std::uint64_t late_ = 0;
   std::uint64_t refused_ = 0;
   std::uint64_t dropped_ = 0;

@@ -11,7 +11,7 @@
 namespace mpm {
 namespace {
 
-constexpr int kLeastSweeps = 10, kMostSweeps = 100;
+constexpr int kMostSweeps = 100;
 constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
 constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
 constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
@@ -63,7 +63,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
     tools_.find(nodes_, context.start, context.dt);
     walls_.find(nodes_, context.dt);
-    solve(context.dt);
+    solve(context.start, context.dt);
     cells_.take(table_, nodes_, context.dt);
     store(context.dt);
   }
@@ -82,6 +82,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   void numbers(std::vector<NamedNumber>& list) const override {
     list.push_back({"sweeps", "1", static_cast<double>(sweeps_)});
     list.push_back({"sweep_change", "1", change_});
+    if (settings_.budget != nullptr) settings_.budget->numbers(list);
   }
   ContactLedger* ledger_of(const RigidBody& body) override {
     for (ContactLedger& ledger : tools_.ledgers()) {
@@ -97,6 +98,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
     archive.value("least", least_);
     archive.value("sweeps", sweeps_);
     archive.value("change", change_);
+    if (settings_.budget == nullptr) return;
+    const StateArchive::Group group(archive, "budget");
+    settings_.budget->serialise(archive);
   }
 
  private:
@@ -147,7 +151,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     tools_.meet_free(table_, nodes_);
   }
 
-  void solve(double dt) {
+  void solve(double start, double dt) {
     least_ = sweeps_needed(dt);
     const int most = settings_.sweeps.value_or(kMostSweeps);
     meet();  // else what rests on friction would begin to creep
@@ -157,7 +161,10 @@ class ImplicitStep final : public Stage, public ContactReporter {
     bool settled = false;
     pressed_.clear();
     pressed_.push_back(tools_.pressed());
+    SweepBudget* budget = settings_.budget;
+    if (budget != nullptr) budget->begin_sweeps(start, dt);
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
+      if (budget != nullptr && budget->ends_after(sweeps_)) break;
       const bool backwards = sweeps_ % 2 == 1;
       if (sweeps_ >= kWholeSweeps) find_stirred();
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
@@ -175,6 +182,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
       }
       settled = change <= kSettled * kSettled * size && change_ <= kForceError;
     }
+    if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
   }
 
   /// Blocks in which, or beside which, the last sweep has changed more than a block's share of what may be left: the

@@ -120,6 +120,11 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
   }
   text += fmt::format("sync period: {:.9g} s, {:.0f} step{} each while the material is unstrained\n", sync, steps,
                       steps == 1.0 ? "" : "s");
+  if (time.budget) {
+    text +=
+        fmt::format("budget: sweeps end after {:.4g} ms of wall time in a sync period, so runs depend on the clock\n",
+                    1e3 * *time.budget);
+  }
   if (time.end > 0.0) {
     text += fmt::format("run: to {:g} s in about {:.0f} steps\n", time.end, std::ceil(time.end / sync - 1e-9) * steps);
   } else {

@@ -61,7 +61,7 @@ void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
     scene.choices.emplace_back("time.end", "none: runs until it is stopped");
     return;
   }
-  const Map map(*section, {"end", "cfl", "step", "sync"}, {{"start", "a run starts at 0"}});
+  const Map map(*section, {"end", "cfl", "step", "sync", "budget"}, {{"start", "a run starts at 0"}});
   if (const auto end = map.find("end")) {
     time.end = end->positive(kTime);
     if (time.end < kShortestEnd || time.end > kLongest) {
@@ -77,6 +77,7 @@ void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
       cfl->fail(fmt::format("{} is not below 1, where steps become unstable; 0.5 is the default", time.cfl));
   }
   if (const auto step = map.find("step")) time.step = step->positive(kTime);
+  if (const auto budget = map.find("budget")) time.budget = budget->positive(kTime);
   sync = map.find("sync");
 }
 

@@ -147,11 +147,13 @@ void Simulation::State::end_run(const std::string& reason) const {
   throw PhysicsError(reason);
 }
 
-void Simulation::advance() {
+void Simulation::advance(std::chrono::steady_clock::duration late) {
   State& s = *state_;
   if (s.failed) throw PhysicsError("the run has failed and cannot go on; start it again");
   const auto started = std::chrono::steady_clock::now();
   s.failed = true;  // until the period is done
+  SweepBudget* budget = s.services.budget.get();
+  if (budget != nullptr) budget->begin_period(s.steps.steps, (s.time + s.definition.time.sync) * kNanosecond, late);
   try {
     s.run_period();
   } catch (const ModuleError& error) {
@@ -163,6 +165,7 @@ void Simulation::advance() {
                           error.what()));
   }
   s.failed = false;
+  if (budget != nullptr) budget->end_period();
   s.wall += std::chrono::steady_clock::now() - started;
   sample_metrics();
 }

@@ -43,6 +43,9 @@ void check(const SimulationDefinition& d) {
   if (d.time.step && !(*d.time.step > 0.0)) {
     throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
   }
+  if (d.time.budget && !(*d.time.budget > 0.0)) {
+    throw DefinitionError(fmt::format("time.budget is {}, must be positive", *d.time.budget));
+  }
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }

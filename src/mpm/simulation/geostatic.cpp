@@ -70,6 +70,7 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
     part.method.update = UpdateScheme::usavg;
     part.method.sweeps.reset();
     part.time.step.reset();
+    part.time.budget.reset();
   }
   part.bodies.clear();
   part.metrics.clear();

@@ -40,6 +40,13 @@ void add_implicit(RunParts& parts) {
   settings.threads = parts.threads;
   settings.gravity = definition.gravity;
   settings.isa = parts.isa;
+  if (definition.time.budget) {
+    parts.services.budget = std::make_unique<SweepBudget>(*definition.time.budget);
+    parts.notes.push_back(
+        "time.budget: sweeps end by the wall clock, so that no two runs have the same bits; run_scene --from-bag makes "
+        "a recorded one again");
+  }
+  settings.budget = parts.services.budget.get();
   parts.modules.add(make_implicit_step(std::move(made), settings, definition.method.precision));
 }
 

@@ -43,6 +43,12 @@ Fault method_part(const SimulationDefinition& d) {
                                    "on tools asks for",
                                    *method.sweeps, kMostImplicitSweeps)};
   }
+  if (method.sweeps && d.time.budget && *method.sweeps <= kLeastSweeps) {
+    return MethodFault{"time.budget",
+                       fmt::format("it ends no step before {} sweeps, and method.sweeps is {}; leave one "
+                                   "of them out",
+                                   kLeastSweeps, *method.sweeps)};
+  }
   return {};
 }
 
@@ -149,8 +155,12 @@ Fault other_part(const SimulationDefinition& d) {
 
 std::optional<MethodFault> implicit_fault(const SimulationDefinition& d) {
   if (d.method.update != UpdateScheme::implicit) {
-    if (!d.method.sweeps) return {};
-    return MethodFault{"method.sweeps", "explicit steps have none; leave it out, or write update: implicit"};
+    if (d.method.sweeps)
+      return MethodFault{"method.sweeps", "explicit steps have none; leave it out, or write update: implicit"};
+    if (!d.time.budget) return {};
+    return MethodFault{"time.budget",
+                       "explicit steps have no sweeps that could end sooner; leave it out, or write method.update: "
+                       "implicit"};
   }
   for (const auto part : {method_part, material_part, wall_part, other_part}) {
     if (const Fault fault = part(d)) return fault;

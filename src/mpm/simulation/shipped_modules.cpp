@@ -35,7 +35,7 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_conditions},
       {add_pairs},
       {add_rigid_contact},
-      {add_implicit, {{"sweeps", "1"}, {"sweep_change", "1"}}},
+      {add_implicit, {{"sweeps", "1"}, {"sweep_change", "1"}, {"sweeps_cut", "1"}, {"sweep_error", "1"}}},
       {add_particle_loads},
       {add_tractions},
       {add_cracks, numbers_of_cracks()},

@@ -133,6 +133,12 @@ void Simulation::State::meet_again() {
   for (Module* module : modules.list()) module->share_memory(*ranks);
 }
 
+const SweepBudget* Simulation::budget() const { return state_->services.budget.get(); }
+
+void Simulation::repeat_cuts(const std::vector<CutStep>& steps) {
+  if (SweepBudget* budget = state_->services.budget.get()) budget->repeat(steps);
+}
+
 int Simulation::find_body(const std::string& name) const {
   for (std::size_t b = 0; b < state_->bodies.size(); ++b) {
     if (state_->bodies[b].name() == name) return static_cast<int>(b);

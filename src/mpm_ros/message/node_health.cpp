@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/implicit/sweep_budget.hpp"
 #include "mpm_ros/message/audit_limit.hpp"
 
 namespace mpm_ros {
@@ -150,6 +151,13 @@ void NodeHealth::set_solver(const SolverHealth& solver) {
   const std::lock_guard<std::mutex> lock(mutex_);
   news_ = news_ || solver.phase != solver_.phase;
   solver_ = solver;
+  if (!(solver.cut_error > mpm::kForceErrorBound)) return;
+  const Clock::time_point now = Clock::now();
+  const bool fresh = worst_cut_ > 0.0 && now - worst_cut_at_ < kFresh;
+  news_ = news_ || !fresh;
+  if (fresh && solver.cut_error < worst_cut_) return;
+  worst_cut_ = solver.cut_error;
+  worst_cut_at_ = now;
 }
 
 void NodeHealth::set_commands(const CommandHealth& commands) {
@@ -168,6 +176,7 @@ void NodeHealth::restart() {
   const std::lock_guard<std::mutex> lock(mutex_);
   followers_.clear();
   lag_.clear();
+  worst_cut_ = 0.0;
 }
 
 std::uint64_t NodeHealth::refused() const {
@@ -225,7 +234,7 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   }
 }
 
-void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status, Clock::time_point now) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::string text = solver_.phase;
   bool warn = false;
@@ -252,6 +261,11 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
   if (solver_.overruns > 0 && solver_.real_time_factor < kPaceKept * solver_.asked_factor) {
     add_warning(fmt::format("slower than asked: {:.3g} of the wall clock's pace, not {:g}", solver_.real_time_factor,
                             solver_.asked_factor));
+  }
+  if (!solver_.short_budget.empty()) add_warning(solver_.short_budget);
+  if (worst_cut_ > 0.0 && now - worst_cut_at_ < kFresh) {
+    add_warning(
+        fmt::format("time.budget has ended sweeps where the force on tools was off by {:.0f} %", 100.0 * worst_cut_));
   }
   if (!solver_.record_failure.empty()) text += "; not recorded any more: " + solver_.record_failure;
   const bool broken = solver_.failed || !solver_.record_failure.empty();

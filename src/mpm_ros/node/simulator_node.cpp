@@ -297,7 +297,8 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
     if (!outcome.silence.empty()) fail(outcome.silence, 3);
     if (!failure_.empty() || !refusal.empty()) return false;
     count_commands();
-    run_->advance();
+    const bool paced = parameters_.pacing == Pacing::real_time && phase() == Phase::running;
+    run_->advance(paced ? pacer_->late(Pacer::Clock::now()) : Pacer::Clock::duration::zero());
     for (const std::string& warning : run_->take_warnings()) ROS_WARN_STREAM(warning);
     publish_clock(run_->ended());
     if (run_->ended()) end_run();

@@ -8,6 +8,7 @@
 
 #include "mpm_ros/node/simulator_node.hpp"
 #include "mpm_ros/node/start_line.hpp"
+#include "mpm_ros/run/budget_watch.hpp"
 
 namespace mpm_ros {
 
@@ -15,6 +16,8 @@ namespace {
 
 /// Time until the node says again that it is late.
 constexpr std::chrono::seconds kOverloadAgain{10};
+/// Part of a sync period's wall time that leaves time for outputs.
+constexpr double kBudgetOfPeriod = 0.8;
 /// Length of a run after which its pace is told.
 constexpr double kFirstSecond = 1.0;  // [s]
 
@@ -40,6 +43,7 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
   }
   ROS_INFO_STREAM(start_line(facts));
   const bool paced = parameters_.pacing == Pacing::real_time;
+  if (scene.definition.time.budget) tell_budget();
   if (const std::string warning = expected && paced ? pace_warning(*expected) : ""; !warning.empty()) {
     ROS_WARN_STREAM(warning);
   } else if (expected && paced) {
@@ -49,6 +53,22 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
     ROS_INFO_STREAM(expected_text(*expected));
   }
   std::fflush(stdout);  // a pipe would keep it until the run has long begun
+}
+
+void SimulatorNode::tell_budget() const {
+  const double budget = *subject_->scene.definition.time.budget;
+  const double period = 1e-9 * static_cast<double>(run_->simulation().sync_period()) / parameters_.real_time_factor;
+  if (parameters_.pacing == Pacing::real_time && budget >= period) {
+    ROS_WARN_STREAM(
+        fmt::format("time.budget: {} leaves no time for outputs in a sync period, for which there are {}; "
+                    "write {} or less",
+                    milliseconds(budget), milliseconds(period), milliseconds(kBudgetOfPeriod * period)));
+  }
+  if (!parameters_.commands.empty()) {
+    ROS_WARN_STREAM(
+        "~commands: the scene has a time.budget, by which sweeps end at other times than in the recording; "
+        "run_scene --from-bag makes it again to the bit");
+  }
 }
 
 void SimulatorNode::tell_pace() {
@@ -130,6 +150,10 @@ void SimulatorNode::report() {
   solver.courant = state.courant;
   solver.particles = state.particles;
   solver.returned = state.particles_returned;
+  if (const mpm::SweepBudget* budget = run_->simulation().budget()) {
+    solver.short_budget = short_budget(*budget);
+    solver.cut_error = budget->cut_error();
+  }
   health_.set_solver(solver);
 
   const LateCommands late = commands_.late();

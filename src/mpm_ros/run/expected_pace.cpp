@@ -8,6 +8,7 @@
 #include "mpm/pace/kept_costs.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "mpm_ros/run/budget_watch.hpp"
 #include "mpm_ros/run/scene_rehearsal.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
@@ -83,6 +84,14 @@ mpm::pace::TimedFactors compare(const mpm::Scene& scene, const Forecast& before,
     // What there is no room to time is not proposed either.
   }
   return timed;
+}
+
+std::string budget_text(const mpm::SweepBudget& budget) {
+  if (!budget.least()) return "budget: too few sync periods were timed to say whether ten sweeps a step fit\n";
+  const std::string problem = short_budget(budget);
+  return problem.empty() ? fmt::format("budget: of {} a sync period takes {} with ten sweeps a step\n",
+                                       milliseconds(budget.seconds()), milliseconds(*budget.least()))
+                         : "warning: " + problem + "\n";
 }
 
 }  // namespace
@@ -173,6 +182,7 @@ std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, m
   }
   std::string text = fmt::format("pace: {}; {}, without outputs{}\n", mpm::pace::forecast_text(forecast),
                                  timed_text(forecast, ago), kept ? ", kept for a day in " + costs.path() : "");
+  if (simulation.budget() != nullptr) text += budget_text(*simulation.budget());
   if (forecast.real_time_factor() >= 1.0) return text;
   const int useful = mpm::useful_threads(forecast.particles);
   const auto timed =

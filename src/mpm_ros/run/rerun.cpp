@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "mpm_ros/message/conversions.hpp"
@@ -19,6 +20,10 @@ class Reader : public RunVisitor {
     if (!begin_) begin_ = time;
     rerun_.end = time;
     rerun_.failed = message.failed != 0;
+    const std::size_t cuts = std::min(message.cut_steps.size(), message.cut_sweeps.size());
+    for (std::size_t i = 0; i < cuts; ++i) {
+      rerun_.cuts.push_back({message.cut_steps[i], static_cast<std::int32_t>(message.cut_sweeps[i])});
+    }
     if (message.state_hash.empty()) return;
     rerun_.state_hash = message.state_hash;
     rerun_.hashed_at = time;

@@ -112,9 +112,9 @@ void Run::apply(const AppliedCommand& command) {
   outputs_.command(command);
 }
 
-void Run::advance() {
+void Run::advance(std::chrono::steady_clock::duration late) {
   try {
-    simulation_.advance();
+    simulation_.advance(late);
   } catch (const mpm::StoppedError&) {
     cut_short_ = true;
     throw;
@@ -125,6 +125,7 @@ void Run::advance() {
   look_for_lost_bodies();
   look_for_fast_bodies();
   look_for_lost_tips();
+  if (simulation_.budget() != nullptr) budget_watch_.look(*simulation_.budget(), simulation_.time(), warnings_);
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;

@@ -207,6 +207,11 @@ void RunOutputs::serialise(mpm::StateArchive& archive) {
     global_kept_ = names == own;
     if (global_kept_) global_.serialise(archive);
   }
+  if (simulation_.budget() != nullptr) {
+    archive.rows("cuts", cuts_);
+    archive.column("cuts/step", cuts_, &mpm::CutStep::step);
+    archive.column("cuts/sweeps", cuts_, &mpm::CutStep::sweeps);
+  }
   archive.value("applied", applied_);
   archive.value("late", late_);
   archive.value("refused", refused_);
@@ -221,6 +226,7 @@ void RunOutputs::command(const AppliedCommand& command) {
 
 void RunOutputs::sync(bool last, double real_time_factor) {
   read_contacts();
+  read_cuts();
   const std::int64_t time = simulation_.time();
   if (last || time % wrench_period_ == 0) {
     write_bodies();
@@ -247,6 +253,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   state_.failure = failure;
   if (failed || contacts_at_ != simulation_.time()) {
     if (read_at_ != simulation_.time()) read_contacts();
+    if (failed) read_cuts();
     write_bodies();
     if (!average_.empty()) write_contacts();  // what failed within a period may have written all up to its start
   }
@@ -261,6 +268,12 @@ void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused, std::
   late_ = late;
   refused_ = refused;
   dropped_ = dropped;
+}
+
+void RunOutputs::read_cuts() {
+  if (simulation_.budget() == nullptr) return;
+  const std::vector<mpm::CutStep>& cut = simulation_.budget()->cut();
+  cuts_.insert(cuts_.end(), cut.begin(), cut.end());
 }
 
 void RunOutputs::read_contacts() {
@@ -333,7 +346,7 @@ void RunOutputs::write_bodies() {
 }
 
 void RunOutputs::write_state(bool with_hash, double real_time_factor) {
-  if (!wanted_anywhere(topics::kSolverState)) return;
+  if (!wanted_anywhere(topics::kSolverState)) return cuts_.clear();
   SolverState message = to_message(simulation_.state());
   message.header = header(options_.world_frame);
   message.real_time_factor = real_time_factor;
@@ -347,6 +360,11 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
     dropped.unit = "1";
     dropped.value = {static_cast<double>(dropped_)};
   }
+  for (const mpm::CutStep& cut : cuts_) {
+    message.cut_steps.push_back(cut.step);
+    message.cut_sweeps.push_back(static_cast<std::uint32_t>(cut.sweeps));
+  }
+  cuts_.clear();
   message.failed = state_.failed;
   message.failure = state_.failure;
   if (with_hash) message.state_hash = hash_text(simulation_.state_hash());

@@ -82,6 +82,7 @@ class OfflineRun {
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, nullptr);
+    if (rerun_ && run_->simulation().budget() != nullptr) repeat_cuts();
     open_sinks();
     if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
       throw mpm::SceneError(fmt::format("--end: '{}' is before the checkpoint's time of {:g} s; write a later one",
@@ -224,6 +225,13 @@ class OfflineRun {
     if (run_options.isa == "auto" && recorded && mpm::isa_available(*recorded)) run_options.isa = info.isa;
     const std::string isa = mpm::isa_name(mpm::choose_isa(run_options.isa));
     if (isa != info.isa) check_->differs(fmt::format("instruction set {} in place of {}", isa, info.isa));
+  }
+
+  /// Sweeps end where they ended in the recording, and not by this machine's clock.
+  void repeat_cuts() {
+    run_->simulation().repeat_cuts(rerun_->cuts);
+    notes_.push_back(fmt::format("time.budget: the sweeps of {} step{} end as recorded, whatever time they take",
+                                 rerun_->cuts.size(), rerun_->cuts.size() == 1 ? "" : "s"));
   }
 
   /// Tries the files that are written beside the bag, so that one that cannot be is told of before the run. Nothing is

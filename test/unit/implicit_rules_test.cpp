@@ -66,7 +66,10 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"rigid_bodies.tool.shape={plane: {normal: [0, -1]}}"},
        "rigid_bodies: tool: implicit steps meet bodies at points"},
       {{"target={real_time: 1}"}, "target: "},
-      {{"geometry=plane_stress"}, "geometry: "}};
+      {{"geometry=plane_stress"}, "geometry: "},
+      {{"geometry=axisymmetric", "boundaries={x_max: slip, z_min: slip}", "rigid_bodies=[]",
+        "method.axis={domains: whole}"},
+       "method: axis: "}};
   for (const auto& [overrides, start] : cases) {
     const std::string text = refusal(overrides);
     EXPECT_NE(text.find(start), std::string::npos) << overrides.front() << ": " << text;

@@ -19,8 +19,8 @@ GridLayout widened(const GridLayout& layout) {
 
 }  // namespace
 
-SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, int threads)
-    : grid_(grid), walls_(walls), threads_(threads), wider_(widened(grid.layout)), swept_(wider_) {}
+SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, bool rings, int threads)
+    : grid_(grid), walls_(walls), rings_(rings), threads_(threads), wider_(widened(grid.layout)), swept_(wider_) {}
 
 bool SoilGrid::rebuild() {
   if (generation_ == grid_.blocks.generation()) return false;
@@ -88,6 +88,12 @@ void SoilGrid::find_held() {
             own[axis] = static_cast<std::uint8_t>(wall);
         }
       }
+    }
+  }
+  if (axis()) {
+    for (int node = 0; node < nodes(); ++node) {
+      const int at = layout.node(grid_.blocks.block(node / per_block), node % per_block)[0];
+      if (at <= 0) holders_[3 * static_cast<std::size_t>(node)] = kAxis;
     }
   }
   for (const NodeRef& rests : grid_.at_rest) {

@@ -51,7 +51,6 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"method.sweeps=0"}, "method: sweeps: 0 is not possible"},
       {{"method.sweeps=5", "method.update=usavg"}, "method: sweeps: explicit steps have none"},
       {{"boundaries.x_min=absorbing"}, "boundaries: x_min: "},
-      {{"boundaries={x: periodic}"}, "boundaries: x_min: "},
       {{"sleep={damping: 0.5}"}, "sleep: damping: "},
       {{"contact={method: nodes}"}, "contact: method: "},
       {{"rigid_bodies.tool.sides=two"}, "rigid_bodies: tool: "},

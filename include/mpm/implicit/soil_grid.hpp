@@ -81,7 +81,8 @@ class SoilGrid {
   bool rings_;
   int threads_;
   std::uint64_t generation_ = 0;
-  GridLayout wider_;  ///< one block more at the lower ends, so that blocks beyond walls have neighbours, too
+  /// One block more at the lower ends, so that blocks beyond walls have neighbours, too; periodic axes as they are.
+  GridLayout wider_;
   BlockTable swept_;  ///< the blocks of the grid as owners
   BlockShares shares_;
   std::vector<int> around_;  ///< [block][3^dim]: the blocks around it and itself, the last axis fastest, or -1

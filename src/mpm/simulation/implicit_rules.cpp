@@ -75,10 +75,6 @@ Fault wall_part(const SimulationDefinition& d) {
     if (wall.kind == WallKind::absorbing) {
       return MethodFault{key, "implicit steps have no waves to absorb; write fixed or slip"};
     }
-    if (wall.kind == WallKind::periodic) {
-      return MethodFault{key,
-                         "implicit steps have no periodic axes; write symmetry or slip, or use method.update: usavg"};
-    }
     if (wall.kind == WallKind::frictional && !plain(wall.friction)) {
       return MethodFault{
           key,

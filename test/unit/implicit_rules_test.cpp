@@ -54,7 +54,6 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"method.sweeps=0"}, "method: sweeps: 0 is not possible"},
       {{"method.sweeps=5", "method.update=usavg"}, "method: sweeps: explicit steps have none"},
       {{"boundaries.x_min=absorbing"}, "boundaries: x_min: "},
-      {{"boundaries={x: periodic}"}, "boundaries: x_min: "},
       {{"sleep={damping: 0.5}"}, "sleep: damping: "},
       {{"contact={method: nodes}"}, "contact: method: "},
       {{"rigid_bodies.tool.sides=two"}, "rigid_bodies: tool: "},
@@ -72,7 +71,10 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"contact={edges: blunt}"}, "contact: edges: "},
       {{"rigid_bodies.tool.shape={plane: {normal: [0, -1]}}"},
        "rigid_bodies: tool: implicit steps meet bodies at points"},
-      {{"geometry=plane_stress"}, "geometry: "}};
+      {{"geometry=plane_stress"}, "geometry: "},
+      {{"geometry=axisymmetric", "boundaries={x_max: slip, z_min: slip}", "rigid_bodies=[]",
+        "method.axis={domains: whole}"},
+       "method: axis: "}};
   for (const auto& [overrides, start] : cases) {
     const std::string text = refusal(overrides);
     EXPECT_NE(text.find(start), std::string::npos) << overrides.front() << ": " << text;

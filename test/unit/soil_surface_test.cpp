@@ -52,7 +52,7 @@ TEST(SoilSurface, IsMohrAndCoulombsInEveryDirection) {
         group.lode[l] = 1.0;
       }
       const Group before = group;
-      mpm::sweep_table<double>(isa).project(group);
+      mpm::sweep_table<double>(isa, mpm::GeometryKind::solid).project(group);
       for (int l = 0; l < kLanes; ++l) {
         const auto yield = [&](const Group& of) {
           const Eigen::Vector3d s = principal(of, l);
@@ -85,7 +85,7 @@ TEST(SoilSurface, PartsAtTheApexOrTheLimit) {
         group.least[l] = -limit;
         group.lode[l] = 1.0;
       }
-      mpm::sweep_table<double>(isa).project(group);
+      mpm::sweep_table<double>(isa, mpm::GeometryKind::solid).project(group);
       EXPECT_NEAR(group.stress[0][0], -std::min(limit, std::sqrt(3.0) * 2000.0), 1e-6);
       if (limit > 1e6) {
         EXPECT_NEAR(group.stress[3][0], 0.0, 1e-6);

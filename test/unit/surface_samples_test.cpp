@@ -142,8 +142,14 @@ TEST(SurfaceSamples, InAxisymmetryLieOnTheHalfSection) {
   expect_on(*cylinder, samples);
   for (const SurfaceSample& s : samples) EXPECT_GT(s.place.x(), 0.0);
   const Samples clear = sample_surface(*cylinder, GeometryKind::axisymmetric, {0.05, 0.03});
-  EXPECT_EQ(count_facing(clear, Vec3::UnitZ()), 7);  // the one by the rim is left out, the one by the axis is not
-  EXPECT_EQ(count_facing(clear, Vec3::UnitX()), 4);  // the mantle is just six spacings high, so not narrow
+  // Parts begin 0.025 m from the rims, and on the axis: eight of 0.375 m, and five of 0.25 m.
+  EXPECT_EQ(count_facing(clear, Vec3::UnitZ()), 8);
+  EXPECT_EQ(count_facing(clear, Vec3::UnitX()), 5);
+  EXPECT_NEAR(total_area(clear), 2.0 * 0.375 + 0.25, kRound);
+  for (const SurfaceSample& s : clear) {
+    EXPECT_LT(s.place.x(), s.normal.x() > 0.5 ? 0.4 + kRound : 0.375 - 0.4 * 0.375 / 8.0);
+    EXPECT_LT(std::abs(s.place.z()), s.normal.x() > 0.5 ? 0.1 + kRound : 0.15 + kRound);
+  }
   // A ball's half section is drawn with 16 chords.
   const auto ball = make_sphere(0.1);
   const Samples round = sample_surface(*ball, GeometryKind::axisymmetric, {0.02, 0.02});

@@ -14,6 +14,9 @@
 
 namespace mpm {
 
+/// Why a particle near the axis is outside the grid.
+std::optional<OutsideReason> outside_at_axis(const GridLayout& layout, const ParticleSet& set, int particle);
+
 class Axis final : public FieldStage {
  public:
   explicit Axis(AxisGhosts ghosts) : ghosts_(ghosts) { account_.name = "axis"; }
@@ -29,7 +32,9 @@ class Axis final : public FieldStage {
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set,
-                                           int particle) const override;
+                                           int particle) const override {
+    return outside_at_axis(layout, set, particle);
+  }
   void serialise(StateArchive& archive) override {
     account_.serialise(archive);
     archive.sum("given", given_);

@@ -40,7 +40,7 @@ inline constexpr double kLongestImplicitStep = 0.1;       ///< [s]
 
 struct ImplicitSettings {
   GeometryKind geometry = GeometryKind::solid;
-  double across = 1.0;        ///< thickness of a plane [m]
+  double across = 1.0;        ///< thickness of a plane [m]; else 1
   std::optional<int> sweeps;  ///< of every step; without it as many as its contacts need
   std::array<WallDefinition, 6> walls;
   int threads = 1;

@@ -1,5 +1,6 @@
 // The cells of the implicit step: what particles give to them, the unknown stresses that sweeps find, and what
-// particles take from these.
+// particles take from these. About an axis a cell is the section of a ring, with volumes and momentum of the whole
+// turn.
 //
 // A particle's box is cut by the cells' faces into up to eight pieces. Over a piece the hat functions of the cell's
 // nodes are products of straight lines, whose means are their values at its middle: so the sums over pieces of volume
@@ -64,6 +65,8 @@ class SoilCells {
 
   /// Adds what stresses give to the components of velocity that are held.
   void add_to_held(HeldImpulses& held) const;
+  /// What hoop stresses give along r, summed all the way round [N s].
+  double of_hoops() const;
   /// The least initial density of the soils [kg/m^3].
   double least_density() const { return least_density_; }
 

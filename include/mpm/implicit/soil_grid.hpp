@@ -19,14 +19,19 @@ namespace mpm {
 class SoilGrid {
  public:
   static constexpr std::uint8_t kFree = 255, kAtRest = 6;  ///< in place of the number of a wall
+  static constexpr std::uint8_t kAxis = 0;                 ///< that of the wall which an axis takes the place of
 
-  /// `walls`: of the domain's faces, in the order of kWallNames.
-  SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, int threads);
+  /// `walls`: of the domain's faces, in the order of kWallNames. `rings`: cells are sections of rings; where their grid
+  /// begins at r = 0 nothing moves along r there.
+  SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, bool rings, int threads);
 
   /// Looks at the blocks again if they have changed; whether they have.
   bool rebuild();
 
   const Grid& grid() const { return grid_; }
+  bool rings() const { return rings_; }
+  /// Whether the grid begins at an axis of symmetry.
+  bool axis() const { return rings_ && grid_.layout.origin(0) == 0.0; }
   int nodes() const { return grid_.blocks.size() * grid_.layout.nodes_per_block(); }
   /// With those that stand for none.
   int numbers() const { return nodes() + grid_.blocks.size(); }
@@ -36,8 +41,8 @@ class SoilGrid {
   /// Block and number along each axis inside it of the node at `at`, numbers along the grid's axes from the domain's
   /// first node on; false where no block is in use.
   bool find(const std::array<int, 3>& at, int& block, std::array<int, 3>& local) const;
-  /// The wall that holds a node along a world axis, in the order of kWallNames; kAtRest where
-  /// what is asleep beside it holds it, or kFree.
+  /// The wall that holds a node along a world axis, in the order of kWallNames; kAxis where that is the axis, kAtRest
+  /// where what is asleep beside it holds it, or kFree.
   std::uint8_t holder(int node, int axis) const { return holders_[3 * static_cast<std::size_t>(node) + axis]; }
   bool held(int node) const {
     const std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(node)];
@@ -73,9 +78,11 @@ class SoilGrid {
 
   const Grid& grid_;
   std::array<WallDefinition, 6> walls_;
+  bool rings_;
   int threads_;
   std::uint64_t generation_ = 0;
-  GridLayout wider_;  ///< one block more at the lower ends, so that blocks beyond walls have neighbours, too
+  /// One block more at the lower ends, so that blocks beyond walls have neighbours, too; periodic axes as they are.
+  GridLayout wider_;
   BlockTable swept_;  ///< the blocks of the grid as owners
   BlockShares shares_;
   std::vector<int> around_;  ///< [block][3^dim]: the blocks around it and itself, the last axis fastest, or -1

@@ -1,11 +1,13 @@
 // Points on the surface of a rigid body at which an implicit solver lets contact act, with the area of each.
 //
 // In a plane the section of the drawn surface at y = 0 is cut at its corners into chains, and each chain into equal
-// parts with a point in the middle. In space flat faces get a regular grid along their longest border; of curved ones
-// fine triangles are gathered in cubes about the points of a lattice through the body's origin, so that a body that is
-// symmetric about its origin is sampled symmetrically as far as its triangles are. Points of curved faces are moved
-// from the drawn surface to the exact one. What lies inside the body, as where parts of a compound overlap or behind
-// what is drawn of an endless body, gives no point.
+// parts with a point in the middle. About an axis it is the half section, and parts begin half a spacing from convex
+// edges, so that the outermost points lie about a spacing from them: a rim makes twice the error of an edge, and this
+// is what centres it (doc/implicit.md). In space flat faces get a regular grid along their longest border; of curved
+// ones fine triangles are gathered in cubes about the points of a lattice through the body's origin, so that a body
+// that is symmetric about its origin is sampled symmetrically as far as its triangles are. Points of curved faces are
+// moved from the drawn surface to the exact one. What lies inside the body, as where parts of a compound overlap or
+// behind what is drawn of an endless body, gives no point.
 //
 // Weak: cubes cut a curved face into pieces of unequal area, and two sheets of one curved face that are less than
 // `spacing` apart are only told apart by the octants of their normals. Areas are those of the drawn surface, a little
@@ -42,8 +44,9 @@ struct SampleRules {
 /// x >= 0) and normals have no y component. With no clearance the areas sum to that of the drawn surface outside the
 /// body. Points nearer than the clearance to an edge at which their face meets another one outwards, at more than 30
 /// degrees, are left out and their area with them; but not along a direction in which the face is narrower than six
-/// spacings (of a curved face: twice its area by the length of such edges). Ends of what is drawn of an endless body
-/// are no edges, nor is the axis in axisymmetry.
+/// spacings (of a curved face: twice its area by the length of such edges). In axisymmetry any clearance stands for
+/// half a spacing at such an edge before the first part, in a face of two spacings or more. Ends of what is drawn of an
+/// endless body are no edges, nor is the axis in axisymmetry.
 /// @throws RigidError in a line, or when the spacing is not positive and finite or the clearance negative or not finite
 std::vector<SurfaceSample> sample_surface(const Surface& surface, GeometryKind geometry, const SampleRules& rules);
 

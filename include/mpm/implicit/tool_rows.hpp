@@ -87,8 +87,8 @@ class ToolRows {
   /// What is known of a row beside what sweeps need.
   struct Place {
     int body, sample, block;
-    Vec3 at;  ///< [m]
-    double area;
+    Vec3 at;                                ///< [m]
+    double area;                            ///< [m^2]
     double weight[mpm_kernel::kCellNodes];  ///< of its nodes, whether a wall holds them or not
   };
   /// What a row gives to a component of velocity that is held.
@@ -102,6 +102,8 @@ class ToolRows {
     std::vector<double> force;  ///< three numbers each [N]
     std::vector<double> own;    ///< Row::own [1/kg]
   };
+  /// What a length in the x-z plane at `at` is multiplied with to be an area: the thickness, or a turn [m]; in space 1.
+  double across(const Vec3& at) const;
   bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt, Row& row,
             Place& place) const;
 

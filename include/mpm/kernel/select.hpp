@@ -16,7 +16,7 @@ mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, 
 
 /// The sweeps of the implicit step. `isa` must be available.
 template <class T>
-const mpm_kernel::SweepTable<T>& sweep_table(Isa isa);
+const mpm_kernel::SweepTable<T>& sweep_table(Isa isa, GeometryKind geometry);
 
 /// Whether there are kernels of this shape function in this geometry: qCPDI has two axes, and B-splines are not made
 /// for an axis of symmetry.

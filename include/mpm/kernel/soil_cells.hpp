@@ -7,9 +7,12 @@
 //   e_N = tr / sqrt(3), e_1 = (xx - yy) / sqrt(2), e_2 = (2 zz - xx - yy) / sqrt(6), e_3..5 = sqrt(2) (yz, xz, xy).
 //
 // With the gradients B of the cell's eight nodes (four in a plane, where the others have no mass) e = B v, and a stress
-// gives the nodes the momentum dt V B^T r. A sweep takes cell after cell and solves its law for its own stress, in
-// closed form, with the velocities as they are: Gauss-Seidel. Cells of a block whose numbers along each axis are odd or
-// even alike share no node: eight of them are solved at once, one a lane.
+// gives the nodes the momentum dt V B^T r. About an axis, where x is the radius, yy is the rate v_r / r of hoops, and
+// in the place of a node's gradient along y stands its hoop function, the mean of N / r: volumes and masses are those
+// of whole rings. Other functions sweep such cells, so that those of planes and of space know nothing of it. A sweep
+// takes cell after cell and solves its law for its own stress, in closed form, with the velocities as they are:
+// Gauss-Seidel. Cells of a block whose numbers along each axis are odd or even alike share no node: eight of them are
+// solved at once, one a lane.
 //
 //   |r_T| <= sqrt(2) (cohesion + sine r_N / sqrt(3)) / k(sine), r_N >= least; flow e_T = -a r_T, e_N = theta |e_T|,
 //   theta = dilates sqrt(2/3) dilation / k(dilation),
@@ -38,7 +41,7 @@ struct alignas(4 * sizeof(T)) SoilNode {
 /// Cells that share no node, one a lane. A lane without a cell has `push` 0 and nodes without mass.
 template <class T>
 struct alignas(64) SoilGroup {
-  T gradient[3][kCellNodes][kGroupCells];  ///< mean of the nodes' over the soil in the cell [1/m]
+  T gradient[3][kCellNodes][kGroupCells];  ///< mean of the nodes' over the soil in the cell, or the hoop function [1/m]
   T stress[6][kGroupCells];                ///< r [Pa]
   T shift[6][kGroupCells];  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
   T closing[kGroupCells];   ///< part of shift[0] by which openings close, or volume is given back [1/s]
@@ -62,6 +65,7 @@ template <class T>
 struct SoilPlaces {
   T mean[6][kGroupCells];
   T inverse_cell[3];
+  T over_radius[4][kGroupCells];  ///< about an axis, means of 1, x, z and xz over the radius [1/m]
 };
 
 /// Where walls hold nodes of a group: 0 for the components of velocity that they hold, else 1.
@@ -118,7 +122,8 @@ struct SweepChange {
   double size, change;
 };
 
-/// What particles give to a cell: sums over their pieces in it, weighted with volumes.
+/// What particles give to a cell: sums over their pieces in it, weighted with volumes. About an axis 1 / r stands for
+/// y, and xz / r in the place of the stress yz, which is none [1/m].
 template <class T>
 struct alignas(64) SoilSums {
   T volume;     ///< [m^3]
@@ -185,13 +190,13 @@ struct SweepTable {
   /// Solves one point of contact.
   void (*touch)(ContactRow<T>&, SoilNode<T>* nodes);
   void (*flow)(const SoilGroup<T>&, const SoilNode<T>* nodes, SoilFlow<T>&);
-  SoilPasses<T> passes[2];  ///< in a plane and in space
+  SoilPasses<T> passes[2];  ///< with two axes and with three
 };
 
-/// One instruction set.
+/// One instruction set. By whether the cells are those of rings about an axis.
 struct SweepFamily {
-  SweepTable<double> in_double;
-  SweepTable<float> in_single;
+  SweepTable<double> in_double[2];
+  SweepTable<float> in_single[2];
 };
 
 }  // namespace mpm_kernel

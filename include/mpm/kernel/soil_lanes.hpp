@@ -95,13 +95,14 @@ Eight<T> root(Eight<T> a) {
   return load(v);
 }
 
-/// Nodes 0 to 7 of the cells of a group, a cell a lane.
-template <class T>
+/// The nodes of the cells of a group, a cell a lane: all, of rings (sections in a plane) the four that a cell has.
+template <class T, bool Rings>
 struct GroupNodes {
-  Corners<T> of[mpm_kernel::kCellNodes];
+  static constexpr int kCount = Rings ? mpm_kernel::kCellNodes / 2 : mpm_kernel::kCellNodes;
+  Corners<T> of[kCount];
 
   GroupNodes(const mpm_kernel::SoilGroup<T>& group, const mpm_kernel::SoilNode<T>* nodes) {
-    for (int e = 0; e < mpm_kernel::kCellNodes; ++e) of[e] = load(nodes, group.node[e]);
+    for (int e = 0; e < kCount; ++e) of[e] = load(nodes, group.node[e]);
   }
 };
 

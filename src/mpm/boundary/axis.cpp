@@ -68,7 +68,7 @@ void Axis::grid_advanced(FieldContext&) {
   given_ = 0.0;
 }
 
-std::optional<OutsideReason> Axis::why_outside(const GridLayout& layout, const ParticleSet& set, int particle) const {
+std::optional<OutsideReason> outside_at_axis(const GridLayout& layout, const ParticleSet& set, int particle) {
   const double r = set.x[0][particle];
   if (!(std::abs(r) < layout.cell(0))) return std::nullopt;
   return OutsideReason{

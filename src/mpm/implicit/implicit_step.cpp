@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/boundary/axis.hpp"
 #include "mpm/grid/each_share.hpp"
 #include "mpm/kernel/select.hpp"
+#include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
@@ -28,20 +30,22 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
  public:
   ImplicitStep(ImplicitParts parts, const ImplicitSettings& settings)
-      : table_(sweep_table<T>(settings.isa)),
+      : table_(sweep_table<T>(settings.isa, settings.geometry)),
         settings_(settings),
         grid_(*parts.grid),
         sets_(*parts.sets),
-        soil_grid_(grid_, settings.walls, settings.threads),
+        soil_grid_(grid_, settings.walls, axisymmetric(settings.geometry), settings.threads),
         cells_(std::move(parts.bodies), soil_grid_, settings.threads),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
                {settings.geometry, settings.across, cells_.least_density(), settings.threads, settings.gravity}),
         walls_(settings.walls, soil_grid_),
         held_(grid_) {
-    double volume = settings.across;
+    double volume = soil_grid_.rings() ? kTurn * grid_.layout.cell(0) : settings.across;
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
     lightest_ = kLightest * cells_.least_density() * volume;
     light_.name = "implicit/light_nodes";
+    axis_.name = "axis";
+    hoops_.name = "hoop stress";
     pressed_.reserve(settings.sweeps.value_or(kMostSweeps) + 1);
   }
 
@@ -50,6 +54,10 @@ class ImplicitStep final : public Stage, public ContactReporter {
     return fmt::format("motion of '{}' ({:.4g} m/s, half a cell in a step)", sets_[limit.part].name, limit.speed);
   }
   Ranks ranks(Hook) const override { return {Rank::implicit}; }
+  std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set,
+                                           int particle) const override {
+    return soil_grid_.axis() ? outside_at_axis(layout, set, particle) : std::nullopt;
+  }
 
   void step_ended() override { sorts_ = tools_.put_out(sets_, grid_); }
   bool needs_sort() const override { return sorts_; }
@@ -72,6 +80,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
     for (const ContactLedger& ledger : tools_.ledgers()) list.push_back(ledger.account());
     walls_.accounts(list);
     list.push_back(light_);
+    if (!soil_grid_.rings()) return;
+    list.push_back(axis_);
+    list.push_back(hoops_);
   }
   void energies(EnergyReport& report) const override {
     report.leave_open();  // of the change of velocity particles lose a part to the grid
@@ -94,6 +105,12 @@ class ImplicitStep final : public Stage, public ContactReporter {
     tools_.serialise(archive);
     walls_.serialise(archive);
     light_.serialise(archive);
+    if (soil_grid_.rings()) {
+      for (ImpulseAccount* account : {&axis_, &hoops_}) {
+        const StateArchive::Group group(archive, account->name);
+        account->serialise(archive);
+      }
+    }
     archive.sum("taken", taken_);
     archive.value("least", least_);
     archive.value("sweeps", sweeps_);
@@ -222,6 +239,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     }
     light_.add(light);
     taken_ += taken;
+    if (soil_grid_.axis()) axis_.add(held[SoilGrid::kAxis][0] * Vec3::UnitX());
+    if (soil_grid_.rings()) hoops_.add(cells_.of_hoops() * Vec3::UnitX());
     walls_.finish(nodes_, held, dt);
     tools_.finish(nodes_, dt);
   }
@@ -278,10 +297,11 @@ class ImplicitStep final : public Stage, public ContactReporter {
   WallRows<T> walls_;
   HeldImpulses held_;
   std::vector<Node> nodes_;
-  double lightest_ = 0.0;  ///< [kg]
-  ImpulseAccount light_;   ///< what light nodes were not given
-  double taken_ = 0.0;     ///< by the step itself [J]
-  bool sorts_ = false;     ///< whether a particle was put back beyond the block that it is sorted into
+  double lightest_ = 0.0;        ///< [kg]
+  ImpulseAccount light_;         ///< what light nodes were not given
+  ImpulseAccount axis_, hoops_;  ///< along r, as boundary/axis.hpp has them
+  double taken_ = 0.0;           ///< by the step itself [J]
+  bool sorts_ = false;           ///< whether a particle was put back beyond the block that it is sorted into
   std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in its last sweep
   std::vector<std::uint8_t> stirred_;             ///< of each block, whether the next sweep takes it
   std::vector<Deeds> deeds_;                      ///< of each block

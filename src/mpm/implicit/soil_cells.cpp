@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mpm/grid/each_share.hpp"
 #include "mpm/material/drucker_prager.hpp"
@@ -59,6 +60,7 @@ int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
 template <class T>
 void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T>& places, int lane, int no_node) {
   for (auto& mean : places.mean) mean[lane] = mean[0];
+  for (auto& mean : places.over_radius) mean[lane] = mean[0];
   for (auto& node : group.node) node[lane] = no_node;
   for (int i = 0; i < 6; ++i) group.stress[i][lane] = group.shift[i][lane] = T(0);
   for (auto* numbers : {&group.compliance_n, &group.compliance_t, &group.sine, &group.cohesion, &group.dilation,
@@ -243,6 +245,10 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
   const int corners = 1 << grid_.grid().layout.dim();
   const double per_volume = 1.0 / sums.volume;
   for (int i = 0; i < 6; ++i) places.mean[i][lane] = static_cast<T>(per_volume * sums.place[i]);
+  if (grid_.rings()) {
+    const T over_radius[4] = {sums.place[1], sums.place[3], sums.place[5], sums.stress[3]};
+    for (int i = 0; i < 4; ++i) places.over_radius[i][lane] = static_cast<T>(per_volume * over_radius[i]);
+  }
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     const int node = e < corners ? grid_.corner(block, local, e) : grid_.no_node(block);
     group.node[e][lane] = node;
@@ -268,7 +274,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
   group.lode[lane] = soil.follows_lode ? T(1) : T(0);
   group.closing[lane] = static_cast<T>(kRoot3 * (opening > 0.0 ? opening : kGivenBack * opening) / dt);
   for (int i = 0; i < 6; ++i) {
-    const double r = per_volume * sums.stress[i];
+    const double r = grid_.rings() && i == 3 ? 0.0 : per_volume * sums.stress[i];
     group.stress[i][lane] = static_cast<T>(r);
     group.shift[i][lane] = static_cast<T>(-(i == 0 ? compliance_n : compliance_t) * r);
   }
@@ -288,8 +294,10 @@ void SoilCells<T>::add_to_held(HeldImpulses& held) const {
         const int node = group.node[e][lane];
         if (!grid_.held(node)) continue;
         const double x = group.gradient[0][e][lane], y = group.gradient[1][e][lane], z = group.gradient[2][e][lane];
-        const double force[3] = {s.xx * x + s.xy * y + s.xz * z, s.xy * x + s.yy * y + s.yz * z,
-                                 s.xz * x + s.yz * y + s.zz * z};  // a unit of volume, with tension positive
+        // Of a unit of volume, with tension positive.
+        double force[3] = {s.xx * x + s.xy * y + s.xz * z, s.xy * x + s.yy * y + s.yz * z,
+                           s.xz * x + s.yz * y + s.zz * z};
+        if (grid_.rings()) force[0] += std::exchange(force[1], 0.0);
         for (int k = 0; k < 3; ++k) {
           const std::uint8_t holder = grid_.holder(node, k);
           if (holder != SoilGrid::kFree) held.add(node, k, holder, -static_cast<double>(group.push[lane]) * force[k]);
@@ -297,6 +305,21 @@ void SoilCells<T>::add_to_held(HeldImpulses& held) const {
       }
     }
   }
+}
+
+template <class T>
+double SoilCells<T>::of_hoops() const {
+  double sum = 0.0;
+  for (const Group& group : groups_) {
+    for (int lane = 0; lane < mpm_kernel::kGroupCells; ++lane) {
+      if (group.place[lane] < 0) continue;
+      double r[6], functions = 0.0;
+      for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][lane]);
+      for (const auto& hoop : group.gradient[1]) functions += static_cast<double>(hoop[lane]);
+      sum -= static_cast<double>(group.push[lane]) * functions * tensor_of(r).yy;
+    }
+  }
+  return sum;
 }
 
 template <class T>

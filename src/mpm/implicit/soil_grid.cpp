@@ -11,16 +11,21 @@ GridLayout widened(const GridLayout& layout) {
   for (int k = 0; k < layout.dim(); ++k) {
     const int axis = layout.axis(k);
     cell[axis] = layout.cell(k);
-    min[axis] = layout.origin(k) - kBlockEdge * layout.cell(k);
-    max[axis] = layout.origin(k) + (layout.last_node(k) + kBlockEdge) * layout.cell(k);
+    const int beyond = layout.periodic(k) ? 0 : kBlockEdge;
+    min[axis] = layout.origin(k) - beyond * layout.cell(k);
+    max[axis] = layout.origin(k) + (layout.last_node(k) + beyond) * layout.cell(k);
   }
-  return {layout.dim(), cell, min, max};
+  GridLayout wider(layout.dim(), cell, min, max);
+  for (int k = 0; k < layout.dim(); ++k) {
+    if (layout.periodic(k)) wider.make_periodic(k);
+  }
+  return wider;
 }
 
 }  // namespace
 
-SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, int threads)
-    : grid_(grid), walls_(walls), threads_(threads), wider_(widened(grid.layout)), swept_(wider_) {}
+SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, bool rings, int threads)
+    : grid_(grid), walls_(walls), rings_(rings), threads_(threads), wider_(widened(grid.layout)), swept_(wider_) {}
 
 bool SoilGrid::rebuild() {
   if (generation_ == grid_.blocks.generation()) return false;
@@ -29,7 +34,7 @@ bool SoilGrid::rebuild() {
   keys_.resize(blocks);
   for (int b = 0; b < blocks; ++b) {
     std::array<int, 3> block = grid_.blocks.block(b);
-    for (int k = 0; k < grid_.layout.dim(); ++k) ++block[k];
+    for (int k = 0; k < grid_.layout.dim(); ++k) block[k] += grid_.layout.periodic(k) ? 0 : 1;
     keys_[b] = wider_.key(block);
   }
   swept_.rebuild(keys_, threads_);
@@ -50,10 +55,11 @@ void SoilGrid::find_around() {
   for (int b = 0; b < blocks; ++b) {
     for (int n = 0; n < count; ++n) {
       std::array<int, 3> near = grid_.blocks.block(b);
-      bool numbered = true;  // beyond the first and the last block there are no keys
+      bool numbered = true;  // beyond the first and the last block there are no keys, but along a periodic axis
       for (int k = dim - 1, rest = n; k >= 0; --k, rest /= 3) {
         near[k] += rest % 3 - 1;
-        numbered = numbered && near[k] >= -1 && kBlockEdge * near[k] <= grid_.layout.last_node(k) + kBlockEdge;
+        const bool inside = near[k] >= -1 && kBlockEdge * near[k] <= grid_.layout.last_node(k) + kBlockEdge;
+        numbered = numbered && (inside || grid_.layout.periodic(k));
       }
       if (numbered) around_[static_cast<std::size_t>(count) * b + n] = grid_.blocks.find(grid_.layout.key(near));
     }
@@ -88,6 +94,12 @@ void SoilGrid::find_held() {
             own[axis] = static_cast<std::uint8_t>(wall);
         }
       }
+    }
+  }
+  if (axis()) {
+    for (int node = 0; node < nodes(); ++node) {
+      const int at = layout.node(grid_.blocks.block(node / per_block), node % per_block)[0];
+      if (at <= 0) holders_[3 * static_cast<std::size_t>(node)] = kAxis;
     }
   }
   for (const NodeRef& rests : grid_.at_rest) {

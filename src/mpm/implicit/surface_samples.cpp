@@ -88,25 +88,33 @@ void join_pieces(const Sampler& sampler, std::vector<Piece>& pieces) {
   }
 }
 
-void sample_chain(const Sampler& sampler, const std::vector<const Piece*>& chain, Samples& samples) {
+/// `half`: about an axis, where points have their clearance from a rim by where they lie.
+void sample_chain(const Sampler& sampler, const std::vector<const Piece*>& chain, bool half, Samples& samples) {
   double length = 0.0;
   for (const Piece* piece : chain) length += piece->length();
   const auto& [spacing, clearance] = sampler.rules();
-  const int count = parts_of(length, spacing);
-  const bool narrow = length < kNarrow * spacing * (1.0 - kRound);
   const Piece &front = *chain.front(), &back = *chain.back();
+  double before = 0.0, after = 0.0;  // left out at the ends
+  if (half && clearance > 0.0) {
+    before = front.corner_before ? 0.5 * spacing : 0.0;
+    after = back.corner_after ? 0.5 * spacing : 0.0;
+    if (length - before - after < spacing * (1.0 - kRound)) before = after = 0.0;
+  }
+  const double used = length - before - after;
+  const int count = parts_of(used, spacing);
+  const bool narrow = half || length < kNarrow * spacing * (1.0 - kRound);
   const auto near = [&](const Vec3& corner, const Vec3& place) {
     return !narrow && (place - corner).norm() < clearance * (1.0 - kRound);
   };
   std::size_t i = 0;
   double start = 0.0;  // of piece i along the chain
   for (int k = 0; k < count; ++k) {
-    const double along = (k + 0.5) / count * length;
+    const double along = before + (k + 0.5) / count * used;
     while (i + 1 < chain.size() && along >= start + chain[i]->length()) start += chain[i++]->length();
     const Piece& piece = *chain[i];
     const Vec3 place = piece.from + (along - start) * piece.along;
     if (sampler.hidden(place, piece.normal(), piece.depth)) continue;
-    SurfaceSample sample = sampler.settled(place, piece.normal(), length / count);
+    SurfaceSample sample = sampler.settled(place, piece.normal(), used / count);
     sample.place.y() = sample.normal.y() = 0.0;
     sample.normal.normalize();
     if (front.corner_before && near(front.from, sample.place)) continue;
@@ -129,7 +137,7 @@ Samples sample_outline(const Sampler& sampler, const Faces& faces, bool half) {
         done[p] = true;
         chain.push_back(&pieces[p]);
       }
-      sample_chain(sampler, chain, samples);
+      sample_chain(sampler, chain, half, samples);
     }
   }
   return samples;

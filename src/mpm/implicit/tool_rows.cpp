@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mpm/grid/each_share.hpp"
+#include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
@@ -99,6 +100,11 @@ bool ToolRows<T>::put_out(const RigidBody& body, ParticleSet& set, Grid& grid, i
 }
 
 template <class T>
+double ToolRows<T>::across(const Vec3& at) const {
+  return axisymmetric(settings_.geometry) ? kTurn * at.x() : settings_.across;
+}
+
+template <class T>
 bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt,
                        Row& row, Place& place) const {
   const SurfaceSample& point = samples_[body][sample];
@@ -107,7 +113,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   const int dim = layout.dim(), corners = 1 << dim;
   const Vec3 at = of.pose().position + of.pose().orientation * point.place;
   std::array<int, 3> cell{}, local{};
-  double part[3] = {}, volume = settings_.across;
+  double part[3] = {}, volume = across(at);
   for (int k = 0; k < dim; ++k) {
     const double in_cells = layout.in_cells(k, at[layout.axis(k)]);
     cell[k] = static_cast<int>(std::floor(in_cells));
@@ -155,7 +161,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   place.sample = sample;
   place.block = block;
   place.at = at;
-  place.area = point.area;
+  place.area = point.area * across(at);
   const Kept& kept = kept_[body];
   const double ratio = std::min(1.0, kept.own[sample] / most);
   Vec3 impulse(kept.force[3 * sample], kept.force[3 * sample + 1], kept.force[3 * sample + 2]);
@@ -249,7 +255,6 @@ void ToolRows<T>::look_at_loads(double dt) {
     Vec3 velocity = Vec3::Zero();  ///< weighted with impulses
   };
   const double cell = grid_.grid().layout.smallest_cell();
-  const double across = planar(settings_.geometry) ? settings_.across : 1.0;
   pressure_ = 0.0;
   // Rows of a body need not lie together.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -258,7 +263,7 @@ void ToolRows<T>::look_at_loads(double dt) {
       const double impulse = magnitude(rows_[i].impulse);
       if (places_[i].body != static_cast<int>(b) || !(impulse > 0.0)) continue;
       load.impulse += impulse;
-      load.area += places_[i].area * across;
+      load.area += places_[i].area;
       load.velocity += impulse * vector_of(rows_[i].velocity);
     }
     Vec3& travel = travels_[b];
@@ -290,7 +295,6 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
   std::vector<int>& touched = next_;
   touched.assign(bodies_.size(), 0);
   areas_.assign(bodies_.size(), 0.0);
-  const double across = planar(settings_.geometry) ? settings_.across : 1.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
     const Place& place = places_[i];
@@ -315,7 +319,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     kept.own[place.sample] = static_cast<double>(row.own);
     if (impulse.squaredNorm() > 0.0) {
       ++touched[place.body];
-      areas_[place.body] += place.area * across;
+      areas_[place.body] += place.area;
     }
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) ledgers_[b].end_step(dt, touched[b], areas_[b]);

@@ -102,12 +102,12 @@ mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, 
 }
 
 template <>
-const mpm_kernel::SweepTable<double>& sweep_table<double>(Isa isa) {
-  return kSweeps[static_cast<int>(isa)]().in_double;
+const mpm_kernel::SweepTable<double>& sweep_table<double>(Isa isa, GeometryKind geometry) {
+  return kSweeps[static_cast<int>(isa)]().in_double[axisymmetric(geometry)];
 }
 template <>
-const mpm_kernel::SweepTable<float>& sweep_table<float>(Isa isa) {
-  return kSweeps[static_cast<int>(isa)]().in_single;
+const mpm_kernel::SweepTable<float>& sweep_table<float>(Isa isa, GeometryKind geometry) {
+  return kSweeps[static_cast<int>(isa)]().in_single[axisymmetric(geometry)];
 }
 
 template mpm_kernel::KernelTable<double> kernel_table<double>(ShapeKind, GeometryKind, Isa);

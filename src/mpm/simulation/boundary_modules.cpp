@@ -35,6 +35,7 @@ void add_leaving(RunParts& parts) {
 void add_axis(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   if (!axisymmetric(definition.geometry)) return;
+  if (definition.method.update == UpdateScheme::implicit) return;  // implicit_module.cpp
   parts.add_in_fields([] { return std::make_unique<HoopForce>(); });
   const AxisRules& axis = definition.method.axis;
   if (definition.grid.min.x() == 0.0) {

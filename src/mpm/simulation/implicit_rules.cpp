@@ -18,8 +18,13 @@ using Fault = std::optional<MethodFault>;
 
 Fault method_part(const SimulationDefinition& d) {
   const MethodDefinition& method = d.method;
-  if (d.geometry != GeometryKind::solid && d.geometry != GeometryKind::plane_strain) {
-    return MethodFault{"geometry", "implicit steps are made for solid and plane_strain; use method.update: usavg"};
+  if (d.geometry == GeometryKind::line || d.geometry == GeometryKind::plane_stress) {
+    return MethodFault{"geometry",
+                       "implicit steps are made for solid, plane_strain and axisymmetric; use method.update: usavg"};
+  }
+  if (d.method.axis.domains != AxisDomains::fitted || d.method.axis.functions != AxisFunctions::weighted) {
+    return MethodFault{"method.axis",
+                       "implicit steps have rings that end at the axis; leave domains and functions out"};
   }
   if (method.shape != ShapeKind::ugimp)
     return MethodFault{"method.shape", "implicit steps have ugimp alone; leave it out"};
@@ -75,10 +80,6 @@ Fault wall_part(const SimulationDefinition& d) {
     const std::string key = std::string("boundaries.") + kWallNames[w];
     if (wall.kind == WallKind::absorbing) {
       return MethodFault{key, "implicit steps have no waves to absorb; write fixed or slip"};
-    }
-    if (wall.kind == WallKind::periodic) {
-      return MethodFault{key,
-                         "implicit steps have no periodic axes; write symmetry or slip, or use method.update: usavg"};
     }
     if (wall.kind == WallKind::frictional && !plain(wall.friction)) {
       return MethodFault{

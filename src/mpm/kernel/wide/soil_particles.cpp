@@ -1,7 +1,12 @@
 // What particles of soil and cells of the implicit step give to each other, a chunk of particles at a time. A
 // particle's box is cut by the faces of the cells into up to eight pieces (implicit/soil_cells.hpp).
+//
+// About an axis a box is the section of a ring, cut off at r = 0, and its pieces are weighed with r, as the averages of
+// the shape functions are (shape/radial_box.hpp). The mean of a straight line over r is exact, too: that of the line
+// over the section, over the section's mean radius.
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "mpm/kernel/soil_cells.hpp"
 #include "mpm/kernel/soil_lanes.hpp"
@@ -30,33 +35,67 @@ struct Cuts {
   T part[2][kPadded], middle[2][kPadded];
 
   void find(const double* x, int count, double origin, double inverse_cell, double corner, double half) {
-    constexpr int kShift = 64;
     const double whole = 1.0 / (2.0 * half);
     for (int q = 0; q < count; ++q) {
-      const double at = (x[q] - origin) * inverse_cell - corner, low = at - half, high = at + half;
-      const int i = static_cast<int>(low + kShift) - kShift;
-      const double face = i + 1.0;  // between the two
-      double above = std::max(high - face, 0.0) * whole;
-      above = above < kThinnest ? 0.0 : above > 1.0 - kThinnest ? 1.0 : above;
-      // Of a box in one cell the middle is that of the box.
-      const double lower = above > 0.0 ? 0.5 * (low - face) + 1.0 : at - i;
-      const double upper = above < 1.0 ? 0.5 * (high - face) : at - face;
-      cell[q] = i;
-      part[0][q] = static_cast<T>(1.0 - above);
-      part[1][q] = static_cast<T>(above);
-      middle[0][q] = static_cast<T>(lower);
-      middle[1][q] = static_cast<T>(upper);
+      const double at = (x[q] - origin) * inverse_cell - corner;
+      cut(q, at, at - half, at + half, whole);
     }
+  }
+  /// The box from `low` to `high` about `at`, in cells; `whole`: 1 over its width.
+  inline __attribute__((always_inline)) void cut(int q, double at, double low, double high, double whole) {
+    constexpr int kShift = 64;
+    const int i = static_cast<int>(low + kShift) - kShift;
+    const double face = i + 1.0;  // between the two
+    double above = std::max(high - face, 0.0) * whole;
+    above = above < kThinnest ? 0.0 : above > 1.0 - kThinnest ? 1.0 : above;
+    // Of a box in one cell the middle is that of the box.
+    const double lower = above > 0.0 ? 0.5 * (low - face) + 1.0 : at - i;
+    const double upper = above < 1.0 ? 0.5 * (high - face) : at - face;
+    cell[q] = i;
+    part[0][q] = static_cast<T>(1.0 - above);
+    part[1][q] = static_cast<T>(above);
+    middle[0][q] = static_cast<T>(lower);
+    middle[1][q] = static_cast<T>(upper);
   }
 };
 
+/// Along a radius, with which parts and middles of the pieces are weighed.
+template <class T>
+struct RadialCuts {
+  T per_radius[2][kPadded];  ///< mean of 1 / r over the piece, times its part [1/m]
+  T centre[2][kPadded];      ///< middle of the piece's section
+
+  void find(Cuts<T>& cuts, const double* x, int count, double origin, double inverse_cell, double corner, double half) {
+    const double axis = -(corner + origin * inverse_cell);
+    for (int q = 0; q < count; ++q) {
+      const double at = (x[q] - origin) * inverse_cell - corner;
+      const double low = std::max(at - half, axis), high = at + half, box = 0.5 * (low + high) - axis;
+      cuts.cut(q, box + axis, low, high, 1.0 / (high - low));
+      for (int piece = 0; piece < 2; ++piece) {
+        const double section = cuts.part[piece][q], from_face = cuts.middle[piece][q];
+        const double width = section * (high - low), radius = from_face + cuts.cell[q] + piece - axis;
+        centre[piece][q] = static_cast<T>(from_face);
+        per_radius[piece][q] = static_cast<T>(section / box * inverse_cell);
+        cuts.part[piece][q] = static_cast<T>(section * radius / box);
+        cuts.middle[piece][q] = static_cast<T>(from_face + width * width / (12.0 * radius));
+      }
+    }
+  }
+};
+struct NoRadius {};
+
 /// Of a chunk of particles along each axis.
-template <int Dim, class T>
+template <class Geometry, class T>
 struct Boxes {
-  Cuts<T> along[Dim];
+  Cuts<T> along[Geometry::kDim];
+  std::conditional_t<Geometry::kHoop, RadialCuts<T>, NoRadius> radial;
 
   void find(const SoilParticles<T>& set, int begin, int count, const int* corner) {
-    for (int k = 0; k < Dim; ++k) {
+    constexpr int kFirst = Geometry::kHoop ? 1 : 0;
+    if constexpr (Geometry::kHoop) {
+      radial.find(along[0], set.x[0] + begin, count, set.origin[0], set.inverse_cell[0], corner[0], set.half[0]);
+    }
+    for (int k = kFirst; k < Geometry::kDim; ++k) {
       along[k].find(set.x[k] + begin, count, set.origin[k], set.inverse_cell[k], corner[k], set.half[k]);
     }
   }
@@ -78,9 +117,9 @@ struct Spot {
 };
 
 /// visit(block around, cell inside it, pieces along each axis) for each of the pieces of a particle, empty ones too.
-template <int Dim, class T, class Visit>
-inline __attribute__((always_inline)) void each_piece(const Boxes<Dim, T>& boxes, int q, Visit&& visit) {
-  if constexpr (Dim == 2) {
+template <class Geometry, class T, class Visit>
+inline __attribute__((always_inline)) void each_piece(const Boxes<Geometry, T>& boxes, int q, Visit&& visit) {
+  if constexpr (Geometry::kDim == 2) {
     const Spot x(boxes.along[0].cell[q], 3, 4), z(boxes.along[1].cell[q], 1, 1);
     for (int a = 0; a < 2; ++a) {
       for (int c = 0; c < 2; ++c) visit(x.block[a] + z.block[c], x.local[a] + z.local[c], a, c, 0);
@@ -102,7 +141,7 @@ auto velocity_gradient(const W (&l)[3][3]) {
   if constexpr (Geometry::kDim == 3) {
     return Matrix3<W>{l[0][0], l[0][1], l[0][2], l[1][0], l[1][1], l[1][2], l[2][0], l[2][1], l[2][2]};
   } else {
-    return MatrixPlane<W>{l[0][0], l[0][2], l[2][0], l[2][2], W(0.0)};
+    return MatrixPlane<W>{l[0][0], l[0][2], l[2][0], l[2][2], Geometry::kHoop ? l[1][1] : W(0.0)};
   }
 }
 
@@ -132,15 +171,30 @@ inline __attribute__((always_inline)) typename Rows<T>::Sixteen factors(const Cu
   return moments ? Sixteen{} + part * cuts.middle[piece][q] : Sixteen{} + part;
 }
 
+/// Along a radius: with 1 / r in the lanes of y, and that of x z in the lane of the stress yz, which is none.
+template <class T>
+inline __attribute__((always_inline)) typename Rows<T>::Sixteen over_radius(typename Rows<T>::Sixteen f,
+                                                                            const RadialCuts<T>& cuts, int q,
+                                                                            int piece) {
+  using Sixteen = typename Rows<T>::Sixteen;
+  using Truth = typename Rows<T>::Truth;
+  constexpr Truth kOne = {0, 0, -1, 0, 0, 0, -1}, kLine = {0, 0, 0, 0, -1, 0, 0, 0, 0, 0, -1};
+  const T one = cuts.per_radius[piece][q];
+  f = kOne ? Sixteen{} + one : f;
+  return kLine ? Sixteen{} + one * cuts.centre[piece][q] : f;
+}
+
 template <class Geometry, class T>
 void gather(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places) {
   using W = Wide<T>;
   using Sixteen = typename Rows<T>::Sixteen;
   static_assert(sizeof(SoilSums<T>) == 16 * sizeof(T));
   constexpr int kDim = Geometry::kDim;
-  constexpr bool kMoments[7] = {true, true, kDim == 3, true, kDim == 3, true, kDim == 3};  // 1, x, y, z, xy, xz, yz
+  constexpr bool kHoop = Geometry::kHoop, kWithY = kDim == 3 || kHoop;
+  constexpr bool kMoments[7] = {true, true, kWithY, true, kWithY, true, kWithY};  // 1, x, y, z, xy, xz, yz
   using Truth = typename Rows<T>::Truth;
-  constexpr Truth kX = {0, -1, 0, 0, -1, -1}, kY = {0, 0, -1, 0, -1, 0, -1}, kZ = {0, 0, 0, -1, 0, -1, -1};
+  constexpr Truth kX = {0, -1, 0, 0, -1, -1}, kY = {0, 0, -1, 0, -1, 0, -1};
+  constexpr Truth kZ = {0, 0, 0, -1, 0, -1, -1, 0, 0, 0, kHoop ? -1 : 0};
   const Truth moments[3] = {kX, kDim == 3 ? kY : kZ, kZ};
   // Empty pieces may lie where no cells are.
   Sixteen nowhere[kDim == 3 ? 64 : 16] = {};
@@ -148,7 +202,7 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
   for (int n = 0; n < (kDim == 3 ? 27 : 9); ++n) {
     to[n] = places.sums[n] != nullptr ? reinterpret_cast<Sixteen*>(places.sums[n]) : nowhere;
   }
-  Boxes<kDim, T> boxes;
+  Boxes<Geometry, T> boxes;
   alignas(64) T numbers[10][kPadded];  // volume, r, opening, left, dilates
   alignas(64) T rows[kChunk][16];
   for (int begin = first; begin < last; begin += kChunk) {
@@ -167,7 +221,7 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
       (W(kRoot3) * (xx + yy + zz)).store(numbers[1] + q);
       (W(kRoot2) * (xx - yy)).store(numbers[2] + q);
       (W(kRoot6) * (zz + zz - xx - yy)).store(numbers[3] + q);
-      (shear * tau.yz).store(numbers[4] + q);
+      (kHoop ? W(1.0) : shear * tau.yz).store(numbers[4] + q);
       (shear * tau.xz).store(numbers[5] + q);
       (shear * tau.xy).store(numbers[6] + q);
       opening.store(numbers[7] + q);
@@ -186,6 +240,9 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
       Sixteen along[3][2];
       for (int k = 0; k < kDim; ++k) {
         for (int piece = 0; piece < 2; ++piece) along[k][piece] = factors(boxes.along[k], q, piece, moments[k]);
+      }
+      if constexpr (kHoop) {
+        for (int piece = 0; piece < 2; ++piece) along[0][piece] = over_radius(along[0][piece], boxes.radial, q, piece);
       }
       each_piece(boxes, q, [&](int block, int local, int a, int b, int c) {
         Sixteen product = row * along[0][a] * along[1][b];
@@ -209,7 +266,7 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
   for (int n = 0; n < (kDim == 3 ? 27 : 9); ++n) {
     from[n] = places.motion[n] != nullptr ? places.motion[n] : kNowhere;
   }
-  Boxes<kDim, T> boxes;
+  Boxes<Geometry, T> boxes;
   alignas(64) T numbers[kNumbers][kPadded] = {};
   alignas(64) T rows[kChunk][24];
   for (int begin = first; begin < last; begin += kChunk) {
@@ -236,9 +293,10 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
         for (int k = 0; k < 3; ++k) l[c][k] = number(3 * c + k) * W(dt);
       }
       const W trace_l = l[0][0] + l[1][1] + l[2][2];
-      const W excess = (trace_l - max(min(trace_l, W(kMostStrain)), W(-kMostStrain))) * W(1.0 / Geometry::kDim);
+      constexpr bool kThree = Geometry::kDim == 3 || Geometry::kHoop;
+      const W excess = (trace_l - max(min(trace_l, W(kMostStrain)), W(-kMostStrain))) * W(1.0 / (kThree ? 3 : 2));
       for (int k = 0; k < 3; ++k) {
-        if (Geometry::kDim == 3 || k != 1) l[k][k] -= excess;
+        if (kThree || k != 1) l[k][k] -= excess;
       }
       const W r0 = W(kRoot3) * number(9), r1 = W(kRoot2) * number(10), r2 = W(kRoot6) * number(11);
       const Symmetric3<W> cauchy{-(r0 + r1 - r2),         -(r0 - r1 - r2),         -(r0 + r2 + r2),
@@ -268,12 +326,13 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
 }  // namespace
 
 template <class T>
-mpm_kernel::SoilPasses<T> soil_passes(int axes) {
+mpm_kernel::SoilPasses<T> soil_passes(int axes, bool rings) {
+  if (rings) return {&gather<Axisymmetric, T>, &take<Axisymmetric, T>};
   if (axes == 3) return {&gather<Solid, T>, &take<Solid, T>};
   return {&gather<PlaneStrain, T>, &take<PlaneStrain, T>};
 }
 
-template mpm_kernel::SoilPasses<double> soil_passes(int axes);
-template mpm_kernel::SoilPasses<float> soil_passes(int axes);
+template mpm_kernel::SoilPasses<double> soil_passes(int axes, bool rings);
+template mpm_kernel::SoilPasses<float> soil_passes(int axes, bool rings);
 
 }  // namespace mpm

@@ -9,7 +9,7 @@ namespace mpm {
 
 // soil_particles.cpp
 template <class T>
-mpm_kernel::SoilPasses<T> soil_passes(int axes);
+mpm_kernel::SoilPasses<T> soil_passes(int axes, bool rings);
 // soil_contacts.cpp
 template <class T>
 void meet_contacts(const mpm_kernel::SoilBlock<T>& block, mpm_kernel::SoilNode<T>* nodes);
@@ -27,22 +27,24 @@ using mpm_kernel::SoilMask;
 using mpm_kernel::SoilNode;
 using mpm_kernel::SoilPlaces;
 
+// Rings: about an axis, where a node's gradient along y is its hoop function, the mean of N / r.
+
 /// Rates of strain, mapped, from the velocities of the nodes.
-template <class T>
-inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T>& nodes,
+template <class T, bool Rings>
+inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T, Rings>& nodes,
                                                 Eight<T> (&e)[6]) {
   // Of even and odd nodes apart, so that half as many sums wait for each other.
   Eight<T> part[2][6] = {};
-  for (int n = 0; n < kCellNodes; ++n) {
+  for (int n = 0; n < nodes.kCount; ++n) {
     const Eight<T> x = load(group.gradient[0][n]), y = load(group.gradient[1][n]), z = load(group.gradient[2][n]);
     const Corners<T>& v = nodes.of[n];
     Eight<T>(&sums)[6] = part[n % 2];
     sums[0] += x * v.x;
-    sums[1] += y * v.y;
+    sums[1] += y * (Rings ? v.x : v.y);
     sums[2] += z * v.z;
-    sums[3] += y * v.z + z * v.y;
+    if constexpr (!Rings) sums[3] += y * v.z + z * v.y;
     sums[4] += x * v.z + z * v.x;
-    sums[5] += x * v.y + y * v.x;
+    if constexpr (!Rings) sums[5] += x * v.y + y * v.x;
   }
   Eight<T> whole[6];
   for (int i = 0; i < 6; ++i) whole[i] = part[0][i] + part[1][i];
@@ -56,18 +58,19 @@ inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const
 }
 
 /// What changes `d` of the stresses do to the velocities of the nodes.
-template <class T>
+template <class T, bool Rings>
 inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks,
-                                                  const Eight<T> (&d)[6], GroupNodes<T>& nodes) {
+                                                  const Eight<T> (&d)[6], GroupNodes<T, Rings>& nodes) {
   const Eight<T> f = load(group.push);
   const Eight<T> p = static_cast<T>(kRoot3) * d[0], q = static_cast<T>(kRoot6) * d[2],
                  h = static_cast<T>(kRoot2) * d[1];
   const Eight<T> sx = f * (p + h - q), sy = f * (p - h - q), sz = f * (p + q + q);
   const Eight<T> g = f * static_cast<T>(kRoot2), yz = g * d[3], xz = g * d[4], xy = g * d[5];
-  for (int n = 0; n < kCellNodes; ++n) {
+  for (int n = 0; n < nodes.kCount; ++n) {
     const Eight<T> bx = load(group.gradient[0][n]), by = load(group.gradient[1][n]), bz = load(group.gradient[2][n]);
     Corners<T>& v = nodes.of[n];
-    Eight<T> x = v.m * (bx * sx + by * xy + bz * xz), y = v.m * (bx * xy + by * sy + bz * yz);
+    Eight<T> x = v.m * (bx * sx + by * (Rings ? sy : xy) + bz * xz);
+    Eight<T> y = Rings ? Eight<T>{} : v.m * (bx * xy + by * sy + bz * yz);
     Eight<T> z = v.m * (bx * xz + by * yz + bz * sz);
     if (group.mask >= 0) {
       const SoilMask<T>& mask = masks[group.mask];
@@ -121,7 +124,7 @@ class CellAnswer {
   Eight<T> w_[21] = {};
 };
 
-template <class T>
+template <class T, bool Rings>
 void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>* nodes, const SoilMask<T>* mask) {
   const Eight<T> x = load(places.mean[0]), y = load(places.mean[1]), z = load(places.mean[2]);
   const Eight<T> xy = load(places.mean[3]), xz = load(places.mean[4]), yz = load(places.mean[5]), none{};
@@ -144,7 +147,11 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
     if (plane) s[1] = T(0), a[1] = T(1);
     const T* h = places.inverse_cell;
     const Eight<T> gx = s[0] * h[0] * (a[1] * a[2] + (a[2] * s[1]) * y + (a[1] * s[2]) * z + (s[1] * s[2]) * yz);
-    const Eight<T> gy = s[1] * h[1] * (a[0] * a[2] + (a[2] * s[0]) * x + (a[0] * s[2]) * z + (s[0] * s[2]) * xz);
+    Eight<T> gy = s[1] * h[1] * (a[0] * a[2] + (a[2] * s[0]) * x + (a[0] * s[2]) * z + (s[0] * s[2]) * xz);
+    if constexpr (Rings) {
+      gy = (a[0] * a[2]) * load(places.over_radius[0]) + (a[2] * s[0]) * load(places.over_radius[1]) +
+           (a[0] * s[2]) * load(places.over_radius[2]) + (s[0] * s[2]) * load(places.over_radius[3]);
+    }
     const Eight<T> gz = s[2] * h[2] * (a[0] * a[1] + (a[1] * s[0]) * x + (a[0] * s[1]) * y + (s[0] * s[1]) * xy);
     store(group.gradient[0][e], gx);
     store(group.gradient[1][e], gy);
@@ -152,9 +159,14 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
     Eight<T> im;
     for (int l = 0; l < kGroupCells; ++l) im[l] = nodes[group.node[e][l]].inverse_mass;
     const auto free = [&](int axis) { return mask != nullptr ? im * load(mask->free[axis][e]) : im; };
-    answer.add({r3 * gx, r2 * gx, -r6 * gx, none, r2 * gz, r2 * gy}, free(0));
-    answer.add({r3 * gy, -r2 * gy, -r6 * gy, r2 * gz, none, r2 * gx}, free(1));
-    answer.add({r3 * gz, none, (r6 + r6) * gz, r2 * gy, r2 * gx, none}, free(2));
+    if constexpr (Rings) {
+      answer.add({r3 * (gx + gy), r2 * (gx - gy), -r6 * (gx + gy), none, r2 * gz, none}, free(0));
+      answer.add({r3 * gz, none, (r6 + r6) * gz, none, r2 * gx, none}, free(2));
+    } else {
+      answer.add({r3 * gx, r2 * gx, -r6 * gx, none, r2 * gz, r2 * gy}, free(0));
+      answer.add({r3 * gy, -r2 * gy, -r6 * gy, r2 * gz, none, r2 * gx}, free(1));
+      answer.add({r3 * gz, none, (r6 + r6) * gz, r2 * gy, r2 * gx, none}, free(2));
+    }
   }
   const Eight<T> push = load(group.push);
   store(group.weight_n, push * answer.normal());
@@ -253,10 +265,10 @@ void project(SoilGroup<T>& group) {
   for (int k = 0; k < 6; ++k) store(group.stress[k], r[k]);
 }
 
-template <class T>
+template <class T, bool Rings>
 inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const SoilMask<T>* masks, SoilNode<T>* nodes,
                                                  Eight<T>& size, Eight<T>& change) {
-  GroupNodes<T> corners(group, nodes);
+  GroupNodes<T, Rings> corners(group, nodes);
   Eight<T> b[6], r[6];
   rate(group, corners, b);
   const Eight<T> weight_n = load(group.weight_n), weight_t = load(group.weight_t);
@@ -273,27 +285,28 @@ inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const Soil
     change += weight * r[k] * r[k];
   }
   spread(group, masks, r, corners);
-  for (int e = 0; e < kCellNodes; ++e) store(nodes, group.node[e], corners.of[e]);
+  for (int e = 0; e < corners.kCount; ++e) store(nodes, group.node[e], corners.of[e]);
   find_surface(group, b, bt);
 }
 
-template <class T>
+template <class T, bool Rings>
 void push(const SoilBlock<T>& block, SoilNode<T>* nodes) {
   for (int i = 0; i < block.group_count; ++i) {
     const SoilGroup<T>& group = block.groups[i];
-    GroupNodes<T> corners(group, nodes);
+    GroupNodes<T, Rings> corners(group, nodes);
     Eight<T> r[6];
     for (int k = 0; k < 6; ++k) r[k] = load(group.stress[k]);
     spread(group, block.masks, r, corners);
-    for (int e = 0; e < kCellNodes; ++e) store(nodes, group.node[e], corners.of[e]);
+    for (int e = 0; e < corners.kCount; ++e) store(nodes, group.node[e], corners.of[e]);
   }
 }
 
-template <class T>
+template <class T, bool Rings>
 mpm_kernel::SweepChange sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, bool backwards) {
   Eight<T> size{}, change{};
   for (int i = 0; i < block.group_count; ++i) {
-    relax(block.groups[backwards ? block.group_count - 1 - i : i], block.masks, nodes, size, change);
+    SoilGroup<T>& group = block.groups[backwards ? block.group_count - 1 - i : i];
+    relax<T, Rings>(group, block.masks, nodes, size, change);
   }
   mpm_kernel::SweepChange sum{0.0, 0.0};
   for (int l = 0; l < kGroupCells; ++l) {
@@ -303,9 +316,9 @@ mpm_kernel::SweepChange sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, boo
   return sum;
 }
 
-template <class T>
+template <class T, bool Rings>
 void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out) {
-  const GroupNodes<T> corners(group, nodes);
+  const GroupNodes<T, Rings> corners(group, nodes);
   Eight<T> e[6], plastic[6], shear{};
   rate(group, corners, e);
   const Eight<T> compliance_n = load(group.compliance_n), compliance_t = load(group.compliance_t);
@@ -320,34 +333,27 @@ void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out)
   for (int a = 0; a < 3; ++a) {
     for (int k = 0; k < 3; ++k) {
       Eight<T> sum{};
-      for (int n = 0; n < kCellNodes; ++n) {
+      for (int n = 0; n < corners.kCount; ++n) {
+        if (Rings && (a == 1) != (k == 1)) break;
         const Corners<T>& v = corners.of[n];
-        sum += load(group.gradient[k][n]) * (a == 0 ? v.x : a == 1 ? v.y : v.z);
+        sum += load(group.gradient[k][n]) * (a == 0 || (Rings && a == 1) ? v.x : a == 1 ? v.y : v.z);
       }
       store(out.gradient[3 * a + k], sum);
     }
   }
 }
 
+template <class T, bool Rings>
+mpm_kernel::SweepTable<T> table() {
+  return {&prepare<T, Rings>, &project<T>,       &push<T, Rings>, &sweep<T, Rings>,
+          &meet_contacts<T>,  &touch_contact<T>, &flow<T, Rings>, {soil_passes<T>(2, Rings), soil_passes<T>(3, false)}};
+}
+
 }  // namespace
 
 const mpm_kernel::SweepFamily& soil_sweeps() {
-  static const mpm_kernel::SweepFamily kFamily{{&prepare<double>,
-                                                &project<double>,
-                                                &push<double>,
-                                                &sweep<double>,
-                                                &meet_contacts<double>,
-                                                &touch_contact<double>,
-                                                &flow<double>,
-                                                {soil_passes<double>(2), soil_passes<double>(3)}},
-                                               {&prepare<float>,
-                                                &project<float>,
-                                                &push<float>,
-                                                &sweep<float>,
-                                                &meet_contacts<float>,
-                                                &touch_contact<float>,
-                                                &flow<float>,
-                                                {soil_passes<float>(2), soil_passes<float>(3)}}};
+  static const mpm_kernel::SweepFamily kFamily{{table<double, false>(), table<double, true>()},
+                                               {table<float, false>(), table<float, true>()}};
   return kFamily;
 }
 

@@ -50,6 +50,7 @@ TEST(ImplicitChoice, LeavesExplicitStepsToAllElse) {
       {"rigid_bodies.tool.motion={velocity: [6, 0]}"},                      // crosses a cell in 8 ms
       {"rigid_bodies.tool.shape={plane: {normal: [0, -1]}}"},
       {"rigid_bodies=[]"},
+      {"gravity=[0, 0]"},
       {"time.step=0.001"},  // three explicit steps are as long
       {"grid.cell=0.4", "grid.max=[2, 0.8]"},
       {"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},

@@ -39,7 +39,7 @@ const Case kCases[] = {
     {"end_loaded_cylinder", {}},                                            // tractions
     {"compressed_block", {}},                                               // tools and damping
     {"speed_block_3d", {"grid.cell=0.04", "time.sync=0.005"}},              // free flight
-    {"wheel_in_sand", {"method.precision=double"}},                         // a free body in the plane
+    {"wheel_in_sand", {"method={update: usf}"}},                            // a free body in the plane
     {"ranks_free", {}},                               // a free body in space, heat between it and the material
     {"ranks_plough", {"contact.method=nodes"}, 300},  // a tool in soil, met at nodes
     {"ranks_pair", {}},                               // bodies that meet and warm each other, loads on particles

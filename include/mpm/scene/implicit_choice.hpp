@@ -5,7 +5,7 @@
 // A tool cuts that moves more across gravity than along it, and rolls that turns and is free to move on. What a plate
 // meets that is pressed down depends on the soil's stiffness, and what commands will do with a tool no scene tells:
 // both stay explicit, unless target.tool says that the tool is a blade or a wheel. Slowly: in a step its surface moves
-// by less than a cell.
+// by less than a cell. Without gravity a blade and a plate look alike, and both stay explicit.
 //
 // Source: the suite of tools, on which blades are within 10 % with 4 cells of depth in implicit steps, strips and discs
 // are not, and the paces of the shipped scenes: an implicit step costs 1.5 to 2.5 explicit ones.

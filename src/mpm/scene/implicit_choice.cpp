@@ -73,7 +73,7 @@ void take_implicit_step(Scene& scene) {
 
 bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
   const SimulationDefinition& before = scene.definition;
-  if (asked.keep_update || asked.names_more || before.rigid_bodies.empty()) return false;
+  if (asked.keep_update || asked.names_more || before.rigid_bodies.empty() || before.gravity.isZero()) return false;
   SimulationDefinition after = before;
   after.method.update = UpdateScheme::implicit;
   if (!asked.names_transfer) after.method.transfer = transfer_of_implicit();

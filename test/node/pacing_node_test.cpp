@@ -94,7 +94,7 @@ TEST(Pacing, ABudgetThatIsTooLittleIsToldOf) {
   use_sim_time(true);
   SimulatorProcess simulator({"scene:=" + data_file("implicit_blade.yaml"),
                               "set:=[time.budget=1 us, time.end=1000, "
-                              "rigid_bodies.blade.motion.velocity=[0.001, 0]]",
+                              "rigid_bodies.blade.motion.velocity=[0.3 * cos(20 * t), 0]]",
                               "threads:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
@@ -107,10 +107,17 @@ TEST(Pacing, ABudgetThatIsTooLittleIsToldOf) {
     return found == last.values.end() ? -1.0 : found->value.at(0);
   };
   EXPECT_EQ(number("sweeps"), 10.0);
-  EXPECT_EQ(number("sweeps_cut"), static_cast<double>(last.steps));
+  EXPECT_GT(number("sweeps_cut"), 0.0);
   EXPECT_GE(number("sweep_error"), 0.0);
-  EXPECT_EQ(last.cut_steps, std::vector<std::uint64_t>{last.steps});
-  EXPECT_EQ(last.cut_sweeps, std::vector<std::uint32_t>{10});
+  std::size_t cut = 0;
+  for (const SolverState& state : states.heard()) {
+    ASSERT_EQ(state.cut_steps.size(), state.cut_sweeps.size());
+    for (std::size_t i = 0; i < state.cut_steps.size(); ++i, ++cut) {
+      EXPECT_EQ(state.cut_steps[i], state.steps);  // one a period
+      EXPECT_EQ(state.cut_sweeps[i], 10U);
+    }
+  }
+  EXPECT_GT(cut, 0U);
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "time.budget: 0.001 ms is too little: with 10 sweeps in a step"));
   EXPECT_NE(simulator.log().find("time.budget: 0.001 ms is too little"), std::string::npos) << simulator.log();
 }

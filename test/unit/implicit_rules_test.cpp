@@ -38,6 +38,9 @@ TEST(ImplicitRules, AcceptWhatTheyHave) {
   EXPECT_EQ(refusal({"target={real_time: 1}"}), "accepted");
   EXPECT_EQ(refusal({"time.budget=8 ms"}), "accepted");
   EXPECT_EQ(refusal({"time.budget=8 ms", "method.sweeps=11"}), "accepted");
+  EXPECT_EQ(refusal({"boundaries={z_min: fixed, conditions: [{name: end, region: {box: {min: [0, 0.1], max: [0.1, "
+                     "0.3]}}, direction: x, velocity: 0}]}"}),
+            "accepted");
   EXPECT_EQ(refusal({"rigid_bodies.tool.free={mass: 2}"}), "accepted");
   EXPECT_EQ(refusal({"method.transfer=pic", "method.sweeps=20", "method.precision=single"}), "accepted");
   EXPECT_EQ(refusal({"materials.sand.law=mohr_coulomb", "boundaries.z_min={friction: 0.5}"}), "accepted");
@@ -54,6 +57,9 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"method.sweeps=0"}, "method: sweeps: 0 is not possible"},
       {{"method.sweeps=5", "method.update=usavg"}, "method: sweeps: explicit steps have none"},
       {{"boundaries.x_min=absorbing"}, "boundaries: x_min: "},
+      {{"boundaries={z_min: fixed, conditions: [{name: end, region: {box: {min: [0, 0.1], max: [0.1, 0.3]}}, "
+        "direction: [0.6, 0.8], velocity: 0}]}"},
+       "boundaries: conditions: "},
       {{"sleep={damping: 0.5}"}, "sleep: damping: "},
       {{"contact={method: nodes}"}, "contact: method: "},
       {{"rigid_bodies.tool.sides=two"}, "rigid_bodies: tool: "},

@@ -8,6 +8,10 @@
 // The velocity is that of the step's start while strain is updated first and that of its end from the update of
 // momentum on, so that USAVG stays second order in time. A node is held whole or not at all: the boundary of a region
 // between two rows of nodes is felt at the row inside it.
+//
+// Implicit steps are told which nodes are held, so that all others answer to them in the same step, and leave at these
+// the velocity that they would have had: from that a condition stops them a second time, which is what it gives. It
+// then works on the velocity of the end alone. Directions are those of axes there.
 // Source: Nairn, GIMP notes (3.1)-(3.11); method reference 5.2.
 #pragma once
 
@@ -107,7 +111,8 @@ class VelocityConditions final : public FieldStage {
   /// Of the conditions found on one node, its directions.
   void join(const Found* begin, const Found* end, const Grid& grid);
   double value(const Held& held, double time) const;
-  void give(const Held& held, const Vec3& impulse);
+  /// `velocity`: along the direction, at which the impulse works [m/s].
+  void give(const Held& held, const Vec3& impulse, double velocity);
 
   std::vector<Condition> conditions_;
   std::vector<HeldFace> faces_;
@@ -117,7 +122,7 @@ class VelocityConditions final : public FieldStage {
   bool moving_ = false;           ///< any region does
   bool ended_ = false;            ///< momentum of this step has been updated
   std::uint64_t generation_ = 0;  ///< of the block table that held_ was made from
-  double work_ = 0.0;             ///< on the material since the start: impulse times the mean velocity of the step [J]
+  double work_ = 0.0;             ///< on the material since the start [J]
 };
 
 }  // namespace mpm

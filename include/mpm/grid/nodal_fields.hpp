@@ -109,6 +109,13 @@ struct Grid {
   std::vector<std::uint8_t> elsewhere;
   /// Nodes that material asleep beside them holds at rest (sleep/sleep_border.hpp).
   std::vector<NodeRef> at_rest;
+  /// A component of a node's velocity, along a world axis, that a condition prescribes.
+  struct Prescribed {
+    NodeRef node;
+    int axis;
+  };
+  /// All of them in this step, for implicit steps, which find the others with these (boundary/condition.hpp).
+  std::vector<Prescribed> prescribed;
   NodalField mass;       ///< m_i [kg]
   NodalField momentum;   ///< p_i as gathered, before conditions; valid until XPIC or the next gathering uses it [N s]
   NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]

@@ -1,5 +1,6 @@
-// What a step gives to the components of velocity that do not move: a wall takes it in total, and what lies asleep
-// beside a node takes it from there (sleep/sleep.hpp), which looks at the velocity that the node would have had.
+// What a step gives to the components of velocity that are held: a wall takes it in total. What lies asleep beside a
+// node, or a condition that prescribes its velocity, takes it from there (sleep/sleep.hpp, boundary/condition.hpp),
+// which looks at the velocity that the node would have had.
 #pragma once
 
 #include <array>
@@ -13,19 +14,18 @@ class HeldImpulses {
   /// Impulses of walls by name, as in kWallNames, and axis [N s].
   using OfWalls = std::array<std::array<double, 3>, 6>;
 
-  /// `grid` outlives it. Nodes at rest keep theirs in its field of forces.
+  /// `grid` outlives it. Nodes that are at rest or prescribed keep theirs in its field of forces.
   explicit HeldImpulses(Grid& grid) : grid_(grid) {}
 
   /// Forgets those of the step before.
   void clear() {
     walls_ = {};
-    for (const NodeRef& node : grid_.at_rest) {
-      for (int k = 0; k < grid_.layout.dim(); ++k) grid_.force.at(node.block, k, node.node) = 0.0;
-    }
+    for (const NodeRef& node : grid_.at_rest) forget(node);
+    for (const Grid::Prescribed& one : grid_.prescribed) forget(one.node);
   }
   /// `impulse` [N s] is given to a node's component along a world axis, which `holder` holds (SoilGrid::holder()).
   void add(int node, int axis, std::uint8_t holder, double impulse) {
-    if (holder != SoilGrid::kAtRest) {
+    if (holder < SoilGrid::kAtRest) {
       walls_[holder][axis] += impulse;
       return;
     }
@@ -37,6 +37,10 @@ class HeldImpulses {
   const OfWalls& walls() const { return walls_; }
 
  private:
+  void forget(const NodeRef& node) {
+    for (int k = 0; k < grid_.layout.dim(); ++k) grid_.force.at(node.block, k, node.node) = 0.0;
+  }
+
   Grid& grid_;
   OfWalls walls_{};
 };

@@ -18,14 +18,14 @@ namespace mpm {
 
 class SoilGrid {
  public:
-  static constexpr std::uint8_t kFree = 255, kAtRest = 6;  ///< in place of the number of a wall
-  static constexpr std::uint8_t kAxis = 0;                 ///< that of the wall which an axis takes the place of
+  static constexpr std::uint8_t kFree = 255, kAtRest = 6, kPrescribed = 7;  ///< in place of the number of a wall
+  static constexpr std::uint8_t kAxis = 0;  ///< that of the wall which an axis takes the place of
 
   /// `walls`: of the domain's faces, in the order of kWallNames. `rings`: cells are sections of rings; where their grid
   /// begins at r = 0 nothing moves along r there.
   SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, bool rings, int threads);
 
-  /// Looks at the blocks again if they have changed; whether they have.
+  /// Looks at the blocks again if they have changed; whether they have. And at what conditions prescribe.
   bool rebuild();
 
   const Grid& grid() const { return grid_; }
@@ -42,7 +42,7 @@ class SoilGrid {
   /// first node on; false where no block is in use.
   bool find(const std::array<int, 3>& at, int& block, std::array<int, 3>& local) const;
   /// The wall that holds a node along a world axis, in the order of kWallNames; kAxis where that is the axis, kAtRest
-  /// where what is asleep beside it holds it, or kFree.
+  /// where what is asleep beside it holds it, kPrescribed where a condition gives it its velocity, or kFree.
   std::uint8_t holder(int node, int axis) const { return holders_[3 * static_cast<std::size_t>(node) + axis]; }
   bool held(int node) const {
     const std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(node)];
@@ -81,6 +81,7 @@ class SoilGrid {
   bool rings_;
   int threads_;
   std::uint64_t generation_ = 0;
+  bool prescribes_ = false;  ///< whether conditions held nodes when holders were found
   /// One block more at the lower ends, so that blocks beyond walls have neighbours, too; periodic axes as they are.
   GridLayout wider_;
   BlockTable swept_;  ///< the blocks of the grid as owners

@@ -90,6 +90,7 @@ class ToolRows {
     Vec3 at;                                ///< [m]
     double area;                            ///< [m^2]
     double weight[mpm_kernel::kCellNodes];  ///< of its nodes, whether a wall holds them or not
+    Vec3 prescribed;  ///< part of the soil's velocity there by nodes that are held, which the row's leaves out [m/s]
   };
   /// What a row gives to a component of velocity that is held.
   struct HeldPart {

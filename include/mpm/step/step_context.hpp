@@ -12,6 +12,9 @@ struct StepContext {
   double start = 0.0;  ///< time at which the step begins [s]
   /// Part of the strain that sees the velocities of the step's start, not its end: 1 for USF, 1/2 for USAVG, 0 for USL.
   double strain_at_start = 0.5;
+  /// Whether forces work on the velocities of the step's end, as in implicit steps; else on what particles are moved
+  /// by.
+  bool works_at_end = false;
 
   /// The layout that all fields share.
   const GridLayout& layout() const { return fields.front()->layout; }
@@ -23,6 +26,7 @@ struct FieldContext {
   double dt;                     ///< [s]
   double start = 0.0;            ///< time at which the step begins [s]
   double strain_at_start = 0.5;  ///< as in StepContext
+  bool works_at_end = false;     ///< as in StepContext
 };
 
 inline Vec3 nodal_vector(const NodalField& field, const GridLayout& layout, NodeRef n) {

@@ -178,6 +178,14 @@ void VelocityConditions::momentum_gathered(FieldContext& context) {
     held.end = value(held, context.start + context.dt);
   }
   ended_ = false;
+  if (!context.works_at_end) return;
+  std::vector<Grid::Prescribed>& list = context.grid.prescribed;
+  list.clear();
+  for (const Held& held : held_) {
+    int axis = 0;
+    held.direction.cwiseAbs().maxCoeff(&axis);
+    list.push_back({held.ref, axis});
+  }
 }
 
 void VelocityConditions::before_strain(FieldContext& context) {
@@ -193,11 +201,12 @@ void VelocityConditions::momentum_updated(FieldContext& context) {
   Grid& grid = context.grid;
   ended_ = true;
   for (const Held& held : held_) {
+    const double velocity = context.works_at_end ? held.end : 0.5 * (held.start + held.end);
     if (!grid.carries(held.ref.block, held.ref.node)) continue;
     const Vec3 change = (held.end - along(grid.velocity, grid.layout, held.ref, held.direction)) * held.direction;
     add_nodal_vector(grid.velocity, grid.layout, held.ref, change);
     add_nodal_vector(grid.force, grid.layout, held.ref, change / context.dt);
-    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change, velocity);
   }
 }
 
@@ -217,15 +226,16 @@ void VelocityConditions::increment_found(FieldContext& context) {
     if (!grid.carries(held.ref.block, held.ref.node)) continue;
     const Vec3 change = -along(increment, grid.layout, held.ref, held.direction) * held.direction;
     add_nodal_vector(increment, grid.layout, held.ref, change);
-    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+    if (!grid.counts(held.ref.block)) continue;
+    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change, 0.5 * (held.start + held.end));
   }
 }
 
-void VelocityConditions::give(const Held& held, const Vec3& impulse) {
+void VelocityConditions::give(const Held& held, const Vec3& impulse, double velocity) {
   for (int i = held.first; i < held.first + held.count; ++i) {
     conditions_[parts_[i].condition].given += impulse / held.count;
   }
-  work_ += 0.5 * (held.start + held.end) * impulse.dot(held.direction);
+  work_ += velocity * impulse.dot(held.direction);
 }
 
 void VelocityConditions::grid_advanced(FieldContext& context) {

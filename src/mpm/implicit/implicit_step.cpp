@@ -130,7 +130,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
             tools_.count(block),
             walls_.count(block)};
   }
-  /// Velocities with gravity and loads, and none where walls hold.
+  /// Velocities with gravity and loads, none where walls hold, and those that conditions prescribe.
   void load() {
     const GridLayout& layout = grid_.layout;
     const int per_block = layout.nodes_per_block(), dim = layout.dim();
@@ -144,7 +144,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
         node.inverse_mass = static_cast<T>(1.0 / (grid_.mass.at(block, 0, n) + lightest_));
         for (int k = 0; k < dim; ++k) {
           const int axis = layout.axis(k);
-          if (soil_grid_.holder(block * per_block + n, axis) != SoilGrid::kFree) continue;
+          const std::uint8_t holder = soil_grid_.holder(block * per_block + n, axis);
+          if (holder != SoilGrid::kFree && holder != SoilGrid::kPrescribed) continue;
           node.v[axis] = static_cast<T>(grid_.velocity.at(block, k, n));
         }
       }
@@ -265,7 +266,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
         const double start = grid_.momentum.at(block, k, n) / mass;
         double& force = grid_.force.at(block, k, n);
         const std::uint8_t holder = soil_grid_.holder(number, axis);
-        if (holder == SoilGrid::kAtRest) {  // what is asleep stops it from there
+        if (holder == SoilGrid::kAtRest || holder == SoilGrid::kPrescribed) {  // which stops it from there
+          const double change = velocity - start;
+          if (holder == SoilGrid::kPrescribed) deeds.taken += 0.5 * mass * change * change;
           velocity += force / mass;
           force = (velocity - start) / dt;
           continue;

@@ -28,7 +28,10 @@ SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls,
     : grid_(grid), walls_(walls), rings_(rings), threads_(threads), wider_(widened(grid.layout)), swept_(wider_) {}
 
 bool SoilGrid::rebuild() {
-  if (generation_ == grid_.blocks.generation()) return false;
+  if (generation_ == grid_.blocks.generation()) {
+    if (prescribes_ || !grid_.prescribed.empty()) find_held();
+    return false;
+  }
   generation_ = grid_.blocks.generation();
   const int blocks = grid_.blocks.size();
   keys_.resize(blocks);
@@ -101,6 +104,10 @@ void SoilGrid::find_held() {
       const int at = layout.node(grid_.blocks.block(node / per_block), node % per_block)[0];
       if (at <= 0) holders_[3 * static_cast<std::size_t>(node)] = kAxis;
     }
+  }
+  prescribes_ = !grid_.prescribed.empty();
+  for (const auto& [ref, axis] : grid_.prescribed) {  // they stand above walls
+    holders_[3 * static_cast<std::size_t>(ref.block * per_block + ref.node) + axis] = kPrescribed;
   }
   for (const NodeRef& rests : grid_.at_rest) {
     std::uint8_t* own = &holders_[3 * static_cast<std::size_t>(rests.block * per_block + rests.node)];

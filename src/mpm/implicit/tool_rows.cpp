@@ -135,6 +135,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   }
   if (!(mass > kPresent * settings_.least_density * volume)) return false;
   double own[3] = {};
+  place.prescribed.setZero();
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     const double weight = weights[e] / carrying;
     place.weight[e] = weight;
@@ -142,7 +143,11 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
     for (int a = 0; a < 3; ++a) {
       const bool held = grid_.holder(row.node[e], a) != SoilGrid::kFree;
       row.weight[e][a] = held ? T(0) : static_cast<T>(weight);
-      if (!held) own[a] += weight * weight * static_cast<double>(nodes[row.node[e]].inverse_mass);
+      if (held) {
+        place.prescribed[a] += weight * static_cast<double>(nodes[row.node[e]].v[a]);
+      } else {
+        own[a] += weight * weight * static_cast<double>(nodes[row.node[e]].inverse_mass);
+      }
     }
   }
   double most = std::max({own[0], own[1], own[2]});
@@ -155,7 +160,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   const Vec3 velocity = of.free_motion() != nullptr ? of.free_motion()->velocity_at(at) : of.velocity_at(at);
   for (int a = 0; a < 3; ++a) {
     row.normal[a] = static_cast<T>(normal[a]);
-    row.velocity[a] = static_cast<T>(velocity[a]);
+    row.velocity[a] = static_cast<T>(velocity[a] - place.prescribed[a]);
   }
   place.body = body;
   place.sample = sample;
@@ -233,7 +238,8 @@ void ToolRows<T>::meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<
     for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
       Row& row = rows_[i];
       FreeMotion& motion = *free_.motion(places_[i].body);
-      const Vec3 velocity = motion.velocity_at(places_[i].at), before = vector_of(row.impulse);
+      const Vec3 velocity = motion.velocity_at(places_[i].at) - places_[i].prescribed;
+      const Vec3 before = vector_of(row.impulse);
       for (int a = 0; a < 3; ++a) row.velocity[a] = static_cast<T>(velocity[a]);
       table.touch(row, nodes.data());
       motion.push(before - vector_of(row.impulse), places_[i].at);
@@ -264,7 +270,7 @@ void ToolRows<T>::look_at_loads(double dt) {
       if (places_[i].body != static_cast<int>(b) || !(impulse > 0.0)) continue;
       load.impulse += impulse;
       load.area += places_[i].area;
-      load.velocity += impulse * vector_of(rows_[i].velocity);
+      load.velocity += impulse * (vector_of(rows_[i].velocity) + places_[i].prescribed);
     }
     Vec3& travel = travels_[b];
     if (!(load.impulse > 0.0)) {
@@ -302,8 +308,9 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     const Vec3 impulse = vector_of(row.impulse), normal = vector_of(row.normal);
     // Of a free body the mean of the step, with which its own energy changes.
     const FreeMotion* motion = free_.motion(place.body);
-    const Vec3 velocity = motion != nullptr ? motion->mean_velocity_at(place.at) : vector_of(row.velocity);
-    Vec3 slip = -velocity;
+    const Vec3 velocity =
+        motion != nullptr ? motion->mean_velocity_at(place.at) : Vec3(vector_of(row.velocity) + place.prescribed);
+    Vec3 slip = place.prescribed - velocity;
     for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       for (int a = 0; a < 3; ++a) {
         slip[a] += static_cast<double>(row.weight[e][a]) * static_cast<double>(nodes[row.node[e]].v[a]);

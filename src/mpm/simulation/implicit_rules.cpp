@@ -72,6 +72,8 @@ Fault material_part(const SimulationDefinition& d) {
   return {};
 }
 
+constexpr double kAlong = 1.0 - 1e-9;  ///< of a unit vector, the component along its axis at the least
+
 bool plain(const FrictionLaw& law) { return law.static_coefficient < 0.0 && law.adhesion == 0.0; }
 
 Fault wall_part(const SimulationDefinition& d) {
@@ -143,7 +145,13 @@ Fault other_part(const SimulationDefinition& d) {
                        "implicit steps do not have it yet; leave it out, write off where the key has that, or use "
                        "method.update: usavg"};
   };
-  if (!d.conditions.empty()) return leave_out("conditions");
+  for (const ConditionDefinition& condition : d.conditions) {
+    if (condition.direction.cwiseAbs().maxCoeff() > kAlong) continue;
+    return MethodFault{"boundaries.conditions",
+                       fmt::format("'{}' has a direction between the axes; implicit steps hold nodes along one axis: "
+                                   "write two conditions, or use method.update: usavg",
+                                   condition.region.name)};
+  }
   if (!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()) return leave_out("loads");
   if (d.sleep && d.sleep->damping > 0.0) return leave_out("sleep.damping");
   if (!d.transport.quantities.empty()) return leave_out("transport");

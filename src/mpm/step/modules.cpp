@@ -65,7 +65,8 @@ void Modules::act(Hook hook, StepContext& context) const {
     if (call.across != nullptr) {
       (call.across->*kAtHook<StepContext>[h])(context);
     } else {
-      FieldContext own{*context.fields[call.field], context.dt, context.start, context.strain_at_start};
+      FieldContext own{*context.fields[call.field], context.dt, context.start, context.strain_at_start,
+                       context.works_at_end};
       (call.in_field->*kAtHook<FieldContext>[h])(own);
     }
   }

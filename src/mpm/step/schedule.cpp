@@ -67,6 +67,7 @@ void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& conte
 
 void step_implicit(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   context.strain_at_start = 0.0;
+  context.works_at_end = true;
   gather_momentum(mechanics, modules, context);
   mechanics.clear_forces(context);
   advance_grid(mechanics, modules, context);

@@ -2,15 +2,16 @@
 """plot_steps.py DIR OUT: draws the error of the force on blades in soil against the real-time factor, with explicit and with
 implicit steps, as the picture OUT, from DIR/tool_force.json. It is written by
 
-    work_precision --suite tool_force --places --cells 3,4,6,8,12 --out DIR --no-charts --problem blade_flat \\
+    work_precision --suite tool_force --places --cells 3,4,6,8 --out DIR --no-charts --problem blade_flat \\
         --problem blade_chisel --problem blade_rough --problem blade_flat_0 \\
-        --vary "method={update: usavg}|{update: implicit}|{update: usavg, precision: single}|{update: implicit, precision: single}"
+        --vary "method={update: usavg}|{update: implicit}"
 
 The error is that of the mean over five places of tool and ground within a cell and the standard deviation over them, as
 the root of the sum of their squares; where only bounds are known, that of the mean is its distance from them."""
 import math
 import os
 import sys
+import textwrap
 
 import matplotlib
 
@@ -32,23 +33,20 @@ def error_of(row):
 
 
 def draw(table, path):
-    """One panel a problem, one line for each kind of step and precision."""
+    """One panel a problem, one line for each kind of step."""
     problems = [one for one in table["problems"] if any(row["problem"] == one["name"] for row in table["rows"])]
     figure, panels = plt.subplots(1, len(problems), figsize=(3.4 * len(problems), 3.8), sharey=True, squeeze=False,
                                   constrained_layout=True)
     for axes, problem in zip(panels[0], problems):
         for update, (name, colour) in KINDS.items():
-            for precision, line in (("double", "-"), ("single", ":")):
-                rows = sorted((row for row in table["rows"] if row["problem"] == problem["name"] and row["status"] == "ok"
-                               and row["update"] == update and ("single" in row["variant"]) == (precision == "single")),
-                              key=lambda row: row["cells"])
-                axes.plot([row["real_time_factor"] for row in rows], [error_of(row) for row in rows], line, marker="o",
-                          color=colour, label=f"{name}, {precision}")
-                for row in rows if precision == "double" else []:
-                    axes.annotate(f"{row['cells']:g}", (row["real_time_factor"], error_of(row)), xytext=(4, 4),
-                                  textcoords="offset points", fontsize=8, color=colour)
-        axes.set(xscale="log", yscale="log", title=problem["title"], xlabel="simulated time over processor time")
-        axes.title.set_fontsize(9)
+            rows = sorted((row for row in table["rows"] if row["problem"] == problem["name"] and row["status"] == "ok"
+                           and row["update"] == update), key=lambda row: row["cells"])
+            axes.plot([row["real_time_factor"] for row in rows], [error_of(row) for row in rows], marker="o",
+                      color=colour, label=name)
+            for row in rows:
+                axes.annotate(f"{row['cells']:g}", (row["real_time_factor"], error_of(row)), xytext=(4, 4),
+                              textcoords="offset points", fontsize=8, color=colour)
+        axes.set(xscale="log", yscale="log", title=textwrap.fill(problem["title"], 26), xlabel="simulated time over processor time")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g} %"))
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

@@ -64,6 +64,8 @@ class Interface(unittest.TestCase):
         cls.simulator = subprocess.Popen([program, f"__ns:={NAMESPACE}"])
         cls.master = rosgraph.Master(rospy.get_name())
         assert eventually(lambda: full_name("step") in dict(cls.master.getSystemState()[2])), "no service step"
+        # What it advertises last; whether it is there at all a test tells.
+        eventually(lambda: "/diagnostics" in dict(cls.master.getSystemState()[0]))
 
     @classmethod
     def tearDownClass(cls):

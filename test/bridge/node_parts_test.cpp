@@ -169,8 +169,8 @@ TEST(Pacer, DelaysAreCaughtUpWithEvenly) {
   EXPECT_EQ(pacer.given_up(), 0U);
 }
 
-// Of a sync period of 10 ms 3 ms have gone when it begins so late; after a delay of more, 2 ms: so much less time than
-// a period it has while it catches up.
+// A sync period of 10 ms that begins 3 ms late has lost these 3 ms; one that catches up on a longer delay has lost 2
+// ms, the part of a period that catching up takes.
 TEST(Pacer, SaysWhatOfAPeriodHasGone) {
   Pacer pacer(10'000'000, 1.0);
   const Pacer::Clock::time_point start{};

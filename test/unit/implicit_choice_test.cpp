@@ -17,7 +17,7 @@ time: {end: 1, sync: 0.02}
 materials: [{name: sand, law: drucker_prager, density: 1600, young: 1 MPa, poisson: 0.3, friction_angle: 30 deg}]
 bodies: [{name: bed, material: sand, shape: {box: {min: [0, 0], max: [2, 0.3]}}}]
 rigid_bodies: [{name: tool, shape: {box: {size: [0.15, 0.2]}}, pose: {position: [0.2, 0.35]}, friction: 0.3,
-  motion: {velocity: [0.4, "-0.1 * max(0, 1 - t)"]}}]
+  motion: {velocity: [0.4, "-0.04 * max(0, 1 - t)"]}}]
 boundaries: {all: slip}
 )yaml";
 
@@ -34,6 +34,8 @@ TEST(ImplicitChoice, TakesThemForSlowToolsInSoil) {
   // A wheel.
   EXPECT_TRUE(takes_implicit(
       {"rigid_bodies.tool.free={mass: 5, axes: [x, z]}", "rigid_bodies.tool.motion={rotation_rate: 2}"}));
+  // On a finer grid too, where the tool crosses a cell in half of the usual step.
+  EXPECT_TRUE(takes_implicit({"grid.cell=0.002", "rigid_bodies.tool.motion={velocity: [0.4, 0]}"}));
   // A tool that commands move, of which the scene says what it is.
   EXPECT_TRUE(takes_implicit({"rigid_bodies.tool.motion={}", "target={real_time: 1, tool: blade, length: 0.1}"}));
 }
@@ -44,14 +46,15 @@ TEST(ImplicitChoice, LeavesExplicitStepsToAllElse) {
       {"method={precision: single}"},
       {"method={auto: {strain: 0.1}}"},
       {"method={auto: {}, shape: cpdi}"},
-      {"rigid_bodies.tool.motion={velocity: [0.05, -0.1]}"},                // pressed down
-      {"rigid_bodies.tool.motion={}"},                                      // by commands
-      {"rigid_bodies.tool.free={mass: 5}", "rigid_bodies.tool.motion={}"},  // falls
-      {"rigid_bodies.tool.motion={velocity: [6, 0]}"},                      // crosses a cell in 8 ms
+      {"rigid_bodies.tool.motion={velocity: [0.05, -0.1]}"},                   // pressed down
+      {"rigid_bodies.tool.motion={}"},                                         // by commands
+      {"rigid_bodies.tool.motion={velocity: [0.4, \"t < 0.5 ? -0.3 : 0\"]}"},  // pressed in, then drawn
+      {"rigid_bodies.tool.free={mass: 5}", "rigid_bodies.tool.motion={}"},     // falls
+      {"rigid_bodies.tool.motion={velocity: [6, 0]}"},                         // a fifth of the waves
       {"rigid_bodies.tool.shape={plane: {normal: [0, -1]}}"},
       {"rigid_bodies=[]"},
       {"gravity=[0, 0]"},
-      {"time.step=0.001"},  // three explicit steps are as long
+      {"time.step=0.001"},  // a single explicit step is as long
       {"grid.cell=0.4", "grid.max=[2, 0.8]"},
       {"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
       {"boundaries.x_min=absorbing"}};

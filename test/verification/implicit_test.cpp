@@ -9,28 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "implicit_scene.hpp"
 #include "mpm/math/constants.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm/study/tool_force/run.hpp"
-#include "scene_run.hpp"
 
 namespace implicit_test {
 
 namespace tool_force = mpm::study::tool_force;
 
-/// Sand of 30 degrees without dilation, from x = 0, z = 0 to `width` and `height` [m].
 std::string sand(double width, double height, const std::string& rest) {
-  return fmt::format(
-      "geometry: plane_strain\ngravity: [0, -9.81]\nmethod: {{update: implicit}}\n"
-      "materials: [{{name: sand, law: mohr_coulomb, density: 1600, young: 2 MPa, poisson: 0.3, friction_angle: 30 deg, "
-      "cohesion: 0}}]\n"
-      "bodies: [{{name: sand, material: sand, shape: {{box: {{min: [0, 0], max: [{}, {}]}}}}}}]\n{}",
-      width, height, rest);
+  return verification::sand("plane_strain", width, height, rest);
 }
 
-mpm::Simulation start(const std::string& text, const std::vector<std::string>& overrides = {}, int threads = 1) {
-  return mpm::Simulation(mpm::build(mpm::parse_scene(text, "implicit", overrides)), {threads});
-}
+using verification::start_text;
 
 double largest(const mpm::Simulation& run, const std::string& field) {
   const std::vector<double> values = verification::field(run, field);
@@ -64,10 +56,11 @@ TEST(ImplicitStep, ABladeOfEightCells) {
 // What rests on friction does not creep: in 10 s by less than a thousandth of a cell (exact: not at all).
 TEST(ImplicitStep, SoilAtRestStays) {
   for (const char* step : {"0.005", "0.02"}) {
-    mpm::Simulation run = start(sand(0.8, 0.4,
-                                     "grid: {cell: 0.05, min: [0, 0], max: [0.8, 0.6]}\ntime: {end: 10, sync: 0.02}\n"
-                                     "boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.577}}\n"),
-                                {"bodies.sand.initial=geostatic", std::string("time.step=") + step});
+    mpm::Simulation run =
+        start_text(sand(0.8, 0.4,
+                        "grid: {cell: 0.05, min: [0, 0], max: [0.8, 0.6]}\ntime: {end: 10, sync: 0.02}\n"
+                        "boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.577}}\n"),
+                   {"bodies.sand.initial=geostatic", std::string("time.step=") + step});
     const std::vector<double> x = verification::field(run, "x"), z = verification::field(run, "z");
     verification::run_until(run, 10.0);
     const std::vector<double> x_after = verification::field(run, "x"), z_after = verification::field(run, "z");
@@ -84,9 +77,10 @@ TEST(ImplicitStep, SoilAtRestStays) {
 TEST(ImplicitStep, ColumnsRunOutAsLubeSaw) {
   constexpr double kWidth = 0.4;
   for (const double aspect : {1.0, 2.0}) {
-    mpm::Simulation run = start(sand(kWidth, aspect * kWidth,
-                                     "grid: {cell: 0.025, min: [0, 0], max: [4, 1.2]}\ntime: {end: 2.5, sync: 0.01}\n"
-                                     "boundaries: {x_min: symmetry, z_min: {friction: 0.577}}\n"));
+    mpm::Simulation run =
+        start_text(sand(kWidth, aspect * kWidth,
+                        "grid: {cell: 0.025, min: [0, 0], max: [4, 1.2]}\ntime: {end: 2.5, sync: 0.01}\n"
+                        "boundaries: {x_min: symmetry, z_min: {friction: 0.577}}\n"));
     const mpm::EnergyReport before = run.state().energy;
     verification::run_until(run, 2.5);
     const double published = aspect < 1.8 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3.0);
@@ -125,7 +119,7 @@ std::string dropped(double mass) {
 // A free body comes to rest on the force that its weight is, and its momentum is the sum of its impulses.
 TEST(ImplicitStep, AFreeBodyRestsOnItsWeight) {
   for (const double mass : {20.0, 400.0}) {
-    mpm::Simulation run = start(dropped(mass), {"bodies.sand.initial=geostatic"});
+    mpm::Simulation run = start_text(dropped(mass), {"bodies.sand.initial=geostatic"});
     verification::run_until(run, 2.5);
     run.take_contact(0);
     verification::run_until(run, 3.0);
@@ -142,7 +136,7 @@ TEST(ImplicitStep, AFreeBodyRestsOnItsWeight) {
 // what plastic flow, friction, the transfer and the step itself have taken (balance of energy).
 TEST(ImplicitStep, KeepsMomentumAndEnergy) {
   for (const char* sweeps : {"3", "40"}) {
-    mpm::Simulation run = start(pushed(), {std::string("method.sweeps=") + sweeps});
+    mpm::Simulation run = start_text(pushed(), {std::string("method.sweeps=") + sweeps});
     const mpm::EnergyReport before = run.state().energy;
     verification::run_until(run, 0.5);
     EXPECT_LT(run.state().audit.residual, 1e-12) << sweeps;
@@ -169,7 +163,7 @@ TEST(ImplicitStep, KeepsMomentumOfSeveralSoilsInSpace) {
       "friction: stick, motion: {velocity: [0.1, 0, -0.2]}}]\n"
       "boundaries: {x_min: fixed, x_max: slip, y_min: symmetry, y_max: slip, z_min: {friction: 0.4}}\n";
   for (const auto& [precision, most] : {std::pair{"double", 1e-12}, std::pair{"single", 1e-7}}) {
-    mpm::Simulation run = start(text, {std::string("method.precision=") + precision});
+    mpm::Simulation run = start_text(text, {std::string("method.precision=") + precision});
     verification::run_until(run, 0.5);
     EXPECT_LT(run.state().audit.residual, most) << precision;
     EXPECT_GT(run.take_contact(0).mean.force.z(), 100.0) << precision;
@@ -182,7 +176,7 @@ TEST(ImplicitStep, DoesNotDependOnThreads) {
     for (const char* precision : {"double", "single"}) {
       std::vector<std::uint64_t> hashes;
       for (const int threads : {1, 2, 3, 8}) {
-        mpm::Simulation run = start(text, {std::string("method.precision=") + precision}, threads);
+        mpm::Simulation run = start_text(text, {std::string("method.precision=") + precision}, threads);
         verification::run_until(run, 0.22);
         hashes.push_back(run.memory_hash());
       }
@@ -196,11 +190,11 @@ TEST(ImplicitStep, DoesNotDependOnThreads) {
 TEST(ImplicitStep, GoesOnFromACheckpoint) {
   const std::string file = (std::filesystem::temp_directory_path() / "implicit_step.h5").string();
   for (const std::string& text : {pushed(), dropped(100.0)}) {
-    mpm::Simulation whole = start(text);
+    mpm::Simulation whole = start_text(text);
     verification::run_until(whole, 0.2);
     mpm::save_checkpoint(file, whole, {"", text, {}});
     verification::run_until(whole, 0.4);
-    mpm::Simulation part = start(text);
+    mpm::Simulation part = start_text(text);
     mpm::load_checkpoint(file, part, text);
     verification::run_until(part, 0.4);
     EXPECT_EQ(part.memory_hash(), whole.memory_hash());

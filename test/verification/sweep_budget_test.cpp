@@ -66,8 +66,8 @@ TEST(SweepBudget, AmpleChangesNoBit) {
   for (const mpm::NamedNumber& one : without.numbers()) EXPECT_NE(one.name, "sweeps_cut");
 }
 
-// What one run cut, another that has all the time cuts too, with the same bits on another number of threads; and after
-// a checkpoint, which knows how many steps there were.
+// Steps that one run cut another that has all the time cuts too, with the same bits on another number of threads; and
+// after a checkpoint, which knows how many steps there were.
 TEST(SweepBudget, IsRepeatedWithoutAClock) {
   mpm::Simulation first = start(kUsedUp);
   std::vector<mpm::CutStep> cuts;

@@ -16,6 +16,7 @@ namespace mpm {
 struct NodeRef {
   int block;
   int node;
+  bool operator==(const NodeRef& other) const { return block == other.block && node == other.node; }
 };
 
 class NodalField {
@@ -113,6 +114,7 @@ struct Grid {
   struct Prescribed {
     NodeRef node;
     int axis;
+    bool operator==(const Prescribed& other) const { return node == other.node && axis == other.axis; }
   };
   /// All of them in this step, for implicit steps, which find the others with these (boundary/condition.hpp).
   std::vector<Prescribed> prescribed;

@@ -1,6 +1,6 @@
-// What a step gives to the components of velocity that are held: a wall takes it in total. What lies asleep beside a
-// node, or a condition that prescribes its velocity, takes it from there (sleep/sleep.hpp, boundary/condition.hpp),
-// which looks at the velocity that the node would have had.
+// Impulses that a step gives to the components of velocity that are held. A wall takes them in total; material asleep
+// beside a node, or a condition that prescribes its velocity, takes them from the node (sleep/sleep.hpp,
+// boundary/condition.hpp), by the velocity that it would have had.
 #pragma once
 
 #include <array>

@@ -65,7 +65,7 @@ class SoilCells {
 
   /// Adds what stresses give to the components of velocity that are held.
   void add_to_held(HeldImpulses& held) const;
-  /// What hoop stresses give along r, summed all the way round [N s].
+  /// Sum all the way round of what hoop stresses give along r [N s].
   double of_hoops() const;
   /// The least initial density of the soils [kg/m^3].
   double least_density() const { return least_density_; }

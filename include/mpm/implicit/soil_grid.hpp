@@ -25,12 +25,12 @@ class SoilGrid {
   /// begins at r = 0 nothing moves along r there.
   SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls, bool rings, int threads);
 
-  /// Looks at the blocks again if they have changed; whether they have. And at what conditions prescribe.
+  /// Looks again at the blocks, and at what conditions prescribe, if they have changed. Returns true if blocks have.
   bool rebuild();
 
   const Grid& grid() const { return grid_; }
   bool rings() const { return rings_; }
-  /// Whether the grid begins at an axis of symmetry.
+  /// True if the grid begins at an axis of symmetry.
   bool axis() const { return rings_ && grid_.layout.origin(0) == 0.0; }
   int nodes() const { return grid_.blocks.size() * grid_.layout.nodes_per_block(); }
   /// With those that stand for none.
@@ -56,7 +56,7 @@ class SoilGrid {
   const std::vector<WallNode>& frictional() const { return frictional_; }
 
   const BlockShares& shares() const { return shares_; }
-  /// Whether test(block) is true for a block or one of those around it.
+  /// True if test(block) is for a block or one of those around it.
   template <class Test>
   bool any_around(int block, Test&& test) const {
     const int count = neighbours();
@@ -81,7 +81,7 @@ class SoilGrid {
   bool rings_;
   int threads_;
   std::uint64_t generation_ = 0;
-  bool prescribes_ = false;  ///< whether conditions held nodes when holders were found
+  std::vector<Grid::Prescribed> prescribed_;  ///< those that holders_ were found with
   /// One block more at the lower ends, so that blocks beyond walls have neighbours, too; periodic axes as they are.
   GridLayout wider_;
   BlockTable swept_;  ///< the blocks of the grid as owners

@@ -6,9 +6,9 @@
 // is believed at once and less by and by. A step makes kLeastSweeps in any case, so that a budget bounds a period from
 // there on alone; least() says how long that takes.
 //
-// What that costs the force is estimated by how much it changed in the last half of the sweeps. This change tells less
-// than the error, since a step begins with the impulses of the step before, which were cut, too: the error was found to
-// be 2.4 times the change with one sweep a millisecond, and less with more of them (doc/loop.md).
+// The error that this leaves in the force is estimated by how much it changed in the last half of the sweeps. This
+// change tells less than the error, since a step begins with the impulses of the step before, which were cut, too: the
+// error was found to be 2.4 times the change with one sweep a millisecond, and less with more of them (doc/loop.md).
 //
 // Steps that were cut so, and their sweeps, are all that a run owes to the clock: a run that is given them by repeat()
 // makes the same bits, and asks no clock.
@@ -34,7 +34,7 @@ struct CutStep {
   std::int32_t sweeps = 0;
 };
 
-/// What the sweeps of a step came to.
+/// Result of the sweeps of a step.
 struct SweepsMade {
   int sweeps = 0;
   double force = 0.0;   ///< pressed on all tools together, over the step [N s]
@@ -55,7 +55,7 @@ class SweepBudget {
 
   /// The sweeps of a step begin; it begins at `start` and lasts `dt` [s] of simulated time.
   void begin_sweeps(double start, double dt);
-  /// Whether they end after so many, which would go on else. Asks the clock once, from kLeastSweeps on.
+  /// True if they end after so many, which would go on else. Asks the clock once, from kLeastSweeps on.
   bool ends_after(int sweeps);
   void end_sweeps(const SweepsMade& made);
 

@@ -84,6 +84,11 @@ class ToolRows {
   bool put_out(const RigidBody& body, ParticleSet& set, Grid& grid, int owner) const;
   /// Finds the pressure to resolve.
   void look_at_loads(double dt);
+  /// Load on a body at the start of a step.
+  struct Load {
+    double impulse = 0.0, area = 0.0;  ///< of points that press [N s], [m^2]
+    Vec3 velocity = Vec3::Zero();      ///< of the body there, times the impulses
+  };
   /// What is known of a row beside what sweeps need.
   struct Place {
     int body, sample, block;
@@ -92,7 +97,7 @@ class ToolRows {
     double weight[mpm_kernel::kCellNodes];  ///< of its nodes, whether a wall holds them or not
     Vec3 prescribed;  ///< part of the soil's velocity there by nodes that are held, which the row's leaves out [m/s]
   };
-  /// What a row gives to a component of velocity that is held.
+  /// Part of a row's impulse that a held component of velocity takes.
   struct HeldPart {
     int row, node;
     std::uint8_t holder, axis;
@@ -103,7 +108,7 @@ class ToolRows {
     std::vector<double> force;  ///< three numbers each [N]
     std::vector<double> own;    ///< Row::own [1/kg]
   };
-  /// What a length in the x-z plane at `at` is multiplied with to be an area: the thickness, or a turn [m]; in space 1.
+  /// Width of what lies at `at` across the x-z plane: the thickness, or a turn [m]; in space 1.
   double across(const Vec3& at) const;
   bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt, Row& row,
             Place& place) const;
@@ -125,6 +130,7 @@ class ToolRows {
   std::vector<HeldPart> held_;
   std::vector<int> begin_, next_;
   std::vector<double> areas_;  ///< of each body
+  std::vector<Load> loads_;    ///< of each body
   std::vector<Vec3> travels_;  ///< of each body where it meets soil, the last kLong cells of it at the most [m]
   double pressure_ = 0.0;      ///< [Pa]
 };

@@ -122,7 +122,7 @@ struct SweepChange {
   double size, change;
 };
 
-/// What particles give to a cell: sums over their pieces in it, weighted with volumes. About an axis 1 / r stands for
+/// Sums over the pieces of particles in a cell, weighted with volumes. About an axis 1 / r stands for
 /// y, and xz / r in the place of the stress yz, which is none [1/m].
 template <class T>
 struct alignas(64) SoilSums {

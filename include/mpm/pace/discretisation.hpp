@@ -20,7 +20,7 @@ struct Discretisation {
   bool implicit() const { return step > 0.0; }
 };
 
-/// A length of implicit steps [s] in cells of this size.
+/// Discretisation::falls of a length of implicit steps [s] in cells of this size.
 double falls_of(double step, const Vec3& cell, const SimulationDefinition& definition);
 /// That of a run.
 Discretisation discretisation_of(const SimulationDefinition& definition);

@@ -17,8 +17,8 @@
 // from the smallest cfl of the table on, in proportion between two of them. The whole is the root of the sum of the
 // squares, as of errors that do not depend on each other.
 //
-// Of implicit steps `cfl` is their length over sqrt(cell / gravity); their reference is double and the shortest step of
-// a run's grid, and their update adds nothing, since it has figures of its own.
+// The column `cfl` of implicit steps has their length over sqrt(cell / gravity); their reference is double and the
+// shortest step of a run's grid, and their update adds nothing, since it has figures of its own.
 //
 // Weak: as good as the problems, whose tools are slow.
 #pragma once
@@ -91,7 +91,7 @@ class ForceErrors {
   double cost_factor(Precision precision, UpdateScheme update) const;
 
  private:
-  /// Whether a run is one that others of its kind of steps are compared with.
+  /// True if others of its kind of steps are compared with this run.
   bool reference(const ForceRun& run) const;
   std::optional<double> grid_error(const ToolInGround& tool, int axes, double cells, int along, bool implicit) const;
   double change(int axes, Precision precision, UpdateScheme update) const;

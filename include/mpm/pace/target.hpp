@@ -67,7 +67,7 @@ struct StepCosts {
   /// Of one particle's step in the base's grid [s].
   std::function<double(Precision, UpdateScheme)> particle_step;
 
-  /// In a sync period.
+  /// Number of steps in a sync period.
   double steps(const Discretisation& one) const;
   /// Simulated over wall time.
   double pace(const Discretisation& one) const;

@@ -16,8 +16,7 @@
 // Not chosen, unless the scene names them: dirac, because any motion through the grid makes its forces jump; and where
 // material flows, other shapes than ugimp and other transfers than flip, because the study's problems are elastic. A
 // shape, update or transfer that the scene names is kept. Soil with slow tools takes implicit steps, which the study
-// does not have (implicit_choice.hpp). Without a table of measurements the choice is ugimp, usavg,
-// flip.
+// does not have (implicit_choice.hpp). Without a table of measurements the choice is ugimp, usavg, flip.
 #pragma once
 
 #include <optional>

@@ -4,6 +4,7 @@
 // are ignored, and sums over particles are those of the whole body around the axis.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -37,6 +38,13 @@ struct GridDefinition {
   Vec3 max = Vec3::Zero();
   std::uint64_t leave_limit = 0;  ///< number of particles that may leave and are put back; one more ends the run
 };
+
+/// Shortest edge of a cell, along the axes that the grid has.
+inline double shortest_edge(const Vec3& cell, GeometryKind geometry) {
+  double least = cell.x();
+  for (const int axis : axes_of(geometry)) least = std::min(least, cell[axis]);
+  return least;
+}
 
 struct TimeDefinition {
   double end = 0.0;              ///< [s]; 0 for a node that runs until it is stopped
@@ -201,6 +209,8 @@ struct SimulationDefinition {
 
   /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.
   double across() const { return planar(geometry) ? thickness : (geometry == GeometryKind::line ? area : 1.0); }
+  /// Shortest edge of a grid cell [m].
+  double smallest_cell() const { return shortest_edge(grid.cell, geometry); }
 };
 
 }  // namespace mpm

@@ -126,7 +126,7 @@ class Simulation {
   /// The explicit cracks and their tips; empty without any.
   std::vector<CrackReport> cracks() const;
   std::vector<CrackTipReport> crack_tips() const;
-  /// What time.budget has done to implicit steps (implicit/sweep_budget.hpp); null without one.
+  /// Account of what time.budget has done to implicit steps (implicit/sweep_budget.hpp); null without one.
   const SweepBudget* budget() const;
   /// Ends the sweeps of these steps as they ended in another run, in place of the clock. Ignored without a budget.
   void repeat_cuts(const std::vector<CutStep>& steps);

@@ -9,6 +9,10 @@
 // a part of its balance (a tenth, unless the scene says another), when a tool comes as near as four cells, or when
 // another body's material comes as near as a block.
 //
+// An implicit step holds the nodes at the border itself, as walls hold theirs, and leaves them the velocity that they
+// would have had, from which this takes the same impulse. It costs as much as many explicit steps, so that looks and
+// sorts need not wait.
+//
 // Damping eases the way to rest: nodes slower than four times the speed lose a part of the force without balance that
 // drives them on, and gain it where that force slows them. It is off unless the scene asks for it.
 //

@@ -52,7 +52,7 @@ enum class Rank {
   asleep            ///< holds nodes of material asleep against all else, and reads the sum of all forces
 };
 
-/// Whether a stage of this rank is contact, or has it, after which others have to hold their nodes again.
+/// True if a stage of this rank is contact, or has it, after which others have to hold their nodes again.
 constexpr bool is_contact(Rank rank) { return rank >= Rank::implicit && rank <= Rank::frictional_wall; }
 /// Whether a stage acts at this rank only because contact may have moved its nodes.
 constexpr bool mends_contact(Rank rank) { return rank >= Rank::axis_again && rank <= Rank::condition_again; }

@@ -12,8 +12,8 @@ struct StepContext {
   double start = 0.0;  ///< time at which the step begins [s]
   /// Part of the strain that sees the velocities of the step's start, not its end: 1 for USF, 1/2 for USAVG, 0 for USL.
   double strain_at_start = 0.5;
-  /// Whether forces work on the velocities of the step's end, as in implicit steps; else on what particles are moved
-  /// by.
+  /// True if forces work on the velocities of the step's end, as in implicit steps; else they do on what particles are
+  /// moved by.
   bool works_at_end = false;
 
   /// The layout that all fields share.

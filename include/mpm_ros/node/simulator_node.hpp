@@ -83,7 +83,7 @@ class SimulatorNode {
   void start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps, const std::string& resume = {});
   /// Says what runs, at what pace it is expected to, and what the node waits for.
   void tell_start(const std::optional<ExpectedPace>& expected) const;
-  /// Of a scene with a time.budget: where it is longer than a sync period lasts, or commands of a recording come.
+  /// Warns of a time.budget that is longer than a sync period lasts, or beside commands of a recording.
   void tell_budget() const;
   /// With nobody who waits: by a run's first second, how long it will take.
   void tell_pace();

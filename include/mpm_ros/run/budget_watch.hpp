@@ -1,5 +1,5 @@
-// What should be known of a run whose sweeps end by the clock (time.budget), a line each: that a sync period takes
-// longer with the fewest sweeps, and that the forces on tools are worse for it.
+// Warnings about a run whose sweeps end by the clock (time.budget), a line each: that a sync period takes longer with
+// the fewest sweeps, and that the forces on tools are worse for it.
 #pragma once
 
 #include <chrono>

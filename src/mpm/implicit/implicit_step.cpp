@@ -19,10 +19,9 @@ constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the
 constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
 constexpr double kForceError = 0.02;  ///< change of the forces on tools in the last half of the sweeps, over the forces
 constexpr int kWholeSweeps = 2;       ///< that take all blocks, whether they need it or not
-constexpr double kQuiet =
-    0.1;                       ///< part of a block's share of what is left to settle, below which it is not swept again
-constexpr double kKept = 0.9;  ///< of the sweeps of the step before, at the least
-constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
+constexpr double kQuiet = 0.1;        ///< of a block's share of what is left to settle: of less it is not swept again
+constexpr double kKept = 0.9;         ///< of the sweeps of the step before, at the least
+constexpr double kLightest = 1e-6;    ///< of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
 class ImplicitStep final : public Stage, public ContactReporter {
@@ -51,7 +50,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   std::string name() const override { return kImplicitName; }
   std::string limit_text(const StepLimit& limit) const override {
-    return fmt::format("motion of '{}' ({:.4g} m/s, half a cell in a step)", sets_[limit.part].name, limit.speed);
+    return fmt::format("motion of '{}' (up to {:.4g} m/s)", sets_[limit.part].name, limit.speed);
   }
   Ranks ranks(Hook) const override { return {Rank::implicit}; }
   std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set,
@@ -176,6 +175,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     change_ = 0.0;
     changes_.assign(grid_.blocks.size(), {0.0, 0.0});
     stirred_.assign(grid_.blocks.size(), 1);
+    mpm_kernel::SweepChange sum{0.0, 0.0};  // of the last sweep
     bool settled = false;
     pressed_.clear();
     pressed_.push_back(tools_.pressed());
@@ -184,7 +184,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
       if (budget != nullptr && budget->ends_after(sweeps_)) break;
       const bool backwards = sweeps_ % 2 == 1;
-      if (sweeps_ >= kWholeSweeps) find_stirred();
+      if (sweeps_ >= kWholeSweeps) find_stirred(kQuiet * std::min(kSettled * kSettled * sum.size, sum.change));
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
         if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
       });
@@ -193,26 +193,21 @@ class ImplicitStep final : public Stage, public ContactReporter {
       const double now = tools_.pressed();
       pressed_.push_back(now);
       change_ = now > 0.0 ? std::abs(now - pressed_[sweeps_ / 2]) / now : 0.0;
-      double size = 0.0, change = 0.0;
+      sum = {0.0, 0.0};
       for (const mpm_kernel::SweepChange& one : changes_) {
-        size += one.size;
-        change += one.change;
+        sum.size += one.size;
+        sum.change += one.change;
       }
-      settled = change <= kSettled * kSettled * size && change_ <= kForceError;
+      settled = sum.change <= kSettled * kSettled * sum.size && change_ <= kForceError;
     }
     if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
   }
 
-  /// Blocks in which, or beside which, the last sweep has changed more than a block's share of what may be left: the
+  /// Finds blocks in which, or beside which, the last sweep has changed more than a block's share of `quiet`: the
   /// others need no sweep until their neighbours change.
-  void find_stirred() {
-    double size = 0.0, change = 0.0;
-    for (const mpm_kernel::SweepChange& one : changes_) {
-      size += one.size;
-      change += one.change;
-    }
+  void find_stirred(double quiet) {
     const int blocks = static_cast<int>(changes_.size());
-    const double share = kQuiet * std::min(kSettled * kSettled * size, change) / blocks;
+    const double share = quiet / blocks;
     for (int block = 0; block < blocks; ++block) {
       stirred_[block] = soil_grid_.any_around(block, [&](int near) { return changes_[near].change > share; }) ? 1 : 0;
     }

@@ -294,7 +294,7 @@ void SoilCells<T>::add_to_held(HeldImpulses& held) const {
         const int node = group.node[e][lane];
         if (!grid_.held(node)) continue;
         const double x = group.gradient[0][e][lane], y = group.gradient[1][e][lane], z = group.gradient[2][e][lane];
-        // Of a unit of volume, with tension positive.
+        // By a unit of volume, with tension positive.
         double force[3] = {s.xx * x + s.xy * y + s.xz * z, s.xy * x + s.yy * y + s.yz * z,
                            s.xz * x + s.yz * y + s.zz * z};
         if (grid_.rings()) force[0] += std::exchange(force[1], 0.0);

@@ -29,7 +29,7 @@ SoilGrid::SoilGrid(const Grid& grid, const std::array<WallDefinition, 6>& walls,
 
 bool SoilGrid::rebuild() {
   if (generation_ == grid_.blocks.generation()) {
-    if (prescribes_ || !grid_.prescribed.empty()) find_held();
+    if (prescribed_ != grid_.prescribed) find_held();
     return false;
   }
   generation_ = grid_.blocks.generation();
@@ -105,8 +105,8 @@ void SoilGrid::find_held() {
       if (at <= 0) holders_[3 * static_cast<std::size_t>(node)] = kAxis;
     }
   }
-  prescribes_ = !grid_.prescribed.empty();
-  for (const auto& [ref, axis] : grid_.prescribed) {  // they stand above walls
+  prescribed_ = grid_.prescribed;
+  for (const auto& [ref, axis] : prescribed_) {  // they stand above walls
     holders_[3 * static_cast<std::size_t>(ref.block * per_block + ref.node) + axis] = kPrescribed;
   }
   for (const NodeRef& rests : grid_.at_rest) {

@@ -67,7 +67,7 @@ void SweepBudget::begin_sweeps(double start, double dt) {
   } else {
     learn(seconds_of(sweeps_at_ - begun_), before_);
   }
-  // What a step does beside sweeps comes in two halves of about the same length, for as long as it is not known.
+  // Until it is known, a step is taken to do as much before its sweeps as after them.
   const double after = after_ > 0.0 ? after_ : before_;
   const double between = between_ > 0.0 ? between_ : 2.0 * before_;
   const double steps = std::max(1.0, std::round((end_ - start) / dt));

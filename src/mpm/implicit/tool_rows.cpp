@@ -256,22 +256,19 @@ double ToolRows<T>::pressed() const {
 
 template <class T>
 void ToolRows<T>::look_at_loads(double dt) {
-  struct Load {
-    double impulse = 0.0, area = 0.0;
-    Vec3 velocity = Vec3::Zero();  ///< weighted with impulses
-  };
+  loads_.assign(bodies_.size(), {});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double impulse = magnitude(rows_[i].impulse);
+    if (!(impulse > 0.0)) continue;
+    Load& load = loads_[places_[i].body];
+    load.impulse += impulse;
+    load.area += places_[i].area;
+    load.velocity += impulse * (vector_of(rows_[i].velocity) + places_[i].prescribed);
+  }
   const double cell = grid_.grid().layout.smallest_cell();
   pressure_ = 0.0;
-  // Rows of a body need not lie together.
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    Load load;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double impulse = magnitude(rows_[i].impulse);
-      if (places_[i].body != static_cast<int>(b) || !(impulse > 0.0)) continue;
-      load.impulse += impulse;
-      load.area += places_[i].area;
-      load.velocity += impulse * (vector_of(rows_[i].velocity) + places_[i].prescribed);
-    }
+    const Load& load = loads_[b];
     Vec3& travel = travels_[b];
     if (!(load.impulse > 0.0)) {
       travel.setZero();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mpm/implicit/implicit_step.hpp"
 #include "mpm/simulation/method_rules.hpp"
@@ -36,9 +35,7 @@ int particles(int along, GeometryKind geometry) {
 }  // namespace
 
 double falls_of(double step, const Vec3& cell, const SimulationDefinition& definition) {
-  double edge = std::numeric_limits<double>::infinity();
-  for (const int axis : axes_of(definition.geometry)) edge = std::min(edge, cell[axis]);
-  return step * std::sqrt(definition.gravity.norm() / edge);
+  return step * std::sqrt(definition.gravity.norm() / shortest_edge(cell, definition.geometry));
 }
 
 Discretisation discretisation_of(const SimulationDefinition& definition) {

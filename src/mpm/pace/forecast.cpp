@@ -22,7 +22,7 @@ std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, 
   options.settle = false;
   options.stop = [&timer] { return timer.after_step(); };
   options.interrupt = [&timer] { return timer.over_budget(); };
-  // What has not settled falls in its first implicit steps, which takes more sweeps than are usual.
+  // Soil that has not settled falls in its first implicit steps, which takes more sweeps than are usual.
   if (definition.method.update == UpdateScheme::implicit && !definition.method.sweeps)
     definition.method.sweeps = kUsualSweeps;
   Forecast forecast;

@@ -17,12 +17,6 @@ namespace {
 constexpr std::size_t kMostRows = 16;                                  ///< of the front that a table shows
 constexpr std::array<double, 3> kImplicitSteps = {0.005, 0.01, 0.02};  ///< that there are figures for [s]
 
-double shortest_edge(const Vec3& cell, GeometryKind geometry) {
-  double least = cell.x();
-  for (const int axis : axes_of(geometry)) least = std::min(least, cell[axis]);
-  return least;
-}
-
 bool identical(const Discretisation& a, const Discretisation& b) {
   return a.cell == b.cell && a.along == b.along && a.precision == b.precision && a.update == b.update &&
          a.cfl == b.cfl && a.step == b.step;
@@ -36,14 +30,6 @@ std::vector<T> values(bool keeps, T own, const std::vector<T>& others) {
     if (!keeps && std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
   }
   return all;
-}
-
-std::vector<std::pair<double, double>> pairs_of(const std::vector<double>& first, const std::vector<double>& second) {
-  std::vector<std::pair<double, double>> pairs;
-  for (const double a : first) {
-    for (const double b : second) pairs.emplace_back(a, b);
-  }
-  return pairs;
 }
 
 /// The largest of several tools; nothing where one has no figures.
@@ -122,14 +108,14 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<ToolIn
   const double safe = safe_cfl(definition.method.transfer);
   const auto precisions =
       values(target.keeps("method.precision"), own.precision, {Precision::float64, Precision::float32});
-  // Soil whose steps are implicit has them for a reason, and so have others that are not.
+  // A scene keeps its kind of steps: which materials and tools each is for a target does not weigh.
   const auto updates =
       values(target.keeps("method.update") || own.implicit(), own.update, {UpdateScheme::usavg, UpdateScheme::usf});
-  std::vector<double> shorter;
+  std::vector<double> lengths;
   for (const double step : kImplicitSteps) {
-    if (own.implicit() && step <= costs.sync * (1.0 + 1e-9)) shorter.push_back(step);
+    if (own.implicit() && step <= costs.sync * (1.0 + 1e-9)) lengths.push_back(step);
   }
-  const auto steps = values(target.keeps("time.step"), own.step, shorter);
+  const auto steps = values(target.keeps("time.step"), own.step, lengths);
   std::vector<double> lower;
   for (const double cfl : {0.3, 0.5, 0.7, safe}) {
     if (cfl <= safe && !own.implicit()) lower.push_back(cfl);
@@ -145,14 +131,17 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<ToolIn
         method.precision = precision;
         method.update = update;
         if (method_fault(method, definition.geometry)) continue;
-        for (const auto& [cfl, step] : pairs_of(cfls, steps)) {
+        const auto add = [&](double cfl, double step) {
           Candidate one;
           one.what = {cell, along, precision, update, cfl, step, falls_of(step, cell, definition)};
           const auto error = largest_error(errors, one.what, tools, definition.geometry);
-          if (!error) continue;
+          if (!error) return;
           one.error = *error;
           one.pace = costs.pace(one.what);
           all.push_back(one);
+        };
+        for (const double cfl : cfls) {
+          for (const double step : steps) add(cfl, step);
         }
       }
     }

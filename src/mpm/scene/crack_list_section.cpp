@@ -19,12 +19,6 @@ constexpr double kLeastSegment = 0.1, kMostSegment = 2.0;  // [cells]
 constexpr double kMostSegments = 1e4;
 const std::vector<std::string> kShapes = {"points", "line", "arc", "file", "parts"};
 
-double smallest_cell(const Scene& scene) {
-  double cell = scene.definition.grid.cell[0];
-  for (const int axis : axes_of(scene)) cell = std::min(cell, scene.definition.grid.cell[axis]);
-  return cell;
-}
-
 /// A chain is cut after this check, so that a length by mistake ends in an error and not in all of the memory.
 void check_length(const Value& value, double length, double segment) {
   if (length <= kMostSegments * segment) return;
@@ -134,7 +128,7 @@ std::vector<Vec2> read_chain_shape(const std::pair<std::string, Value>& shape, d
 }
 
 std::vector<Vec2> read_chain(const Map& map, const Scene& scene) {
-  const double cell = smallest_cell(scene);
+  const double cell = scene.definition.smallest_cell();
   double segment = 0.5;
   if (const auto written = map.find("segment")) {
     segment = written->positive(kPlain);

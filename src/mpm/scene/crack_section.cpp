@@ -26,8 +26,7 @@ void refuse_beside_cracks(const Value& section, const Map& root, const Scene& sc
     section.fail(fmt::format("not yet together with boundaries.{}: periodic; write faces such as {}: slip",
                              axis_name(static_cast<int>(face / 2)), kWallNames[face]));
   }
-  double cell = definition.grid.cell[0];
-  for (const int axis : axes_of(scene)) cell = std::min(cell, definition.grid.cell[axis]);
+  const double cell = definition.smallest_cell();
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     if (body.particles) {
       section.fail(fmt::format(
@@ -166,8 +165,7 @@ void read_cracks(const Map& root, Scene& scene) {
   for (const Value& material : root.at("materials").elements()) {
     cracks.materials.push_back(read_fracture_constants(material_map(material, root), cracks));
   }
-  double cell = definition.grid.cell[0];
-  for (const int axis : axes_of(scene)) cell = std::min(cell, definition.grid.cell[axis]);
+  const double cell = definition.smallest_cell();
   const std::vector<Value> list = map.at("list").elements();
   if (list.empty()) map.at("list").fail("names no crack; write one, or leave out cracks");
   for (const Value& value : list) {

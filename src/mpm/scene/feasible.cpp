@@ -64,9 +64,7 @@ WaveStep wave_step(const Scene& scene) {
     step.speed = speed;
     step.material = material.name;
   }
-  double cell = std::numeric_limits<double>::infinity();
-  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
-  step.dt = definition.time.cfl * cell / step.speed;
+  step.dt = definition.time.cfl * definition.smallest_cell() / step.speed;
   return step;
 }
 

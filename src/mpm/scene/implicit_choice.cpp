@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "mpm/implicit/implicit_step.hpp"
 #include "mpm/pace/tool_use.hpp"
@@ -15,6 +16,7 @@
 namespace mpm {
 namespace {
 
+constexpr double kSlow = 0.1;   ///< speed of a slow tool over that of the waves, at the most
 constexpr double kWorth = 3.0;  ///< explicit steps that an implicit one has to span
 
 /// The word of target.tool, or none.
@@ -25,18 +27,42 @@ std::string use_of_tools(const Map& root) {
   return use && use.IsScalar() ? use.Scalar() : "";
 }
 
-bool fits(const RigidBodyDefinition& body, const std::string& use, const SimulationDefinition& definition) {
-  const ToolMotion motion = tool_motion(body, definition);
-  double cell = definition.grid.cell[0];
-  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
-  const double step = definition.time.step.value_or(kImplicitStep);
-  if (!(motion.fastest * step < kFastTravel * cell)) return false;
-  if (!use.empty()) return use != pace::kToolUseNames[static_cast<int>(pace::ToolUse::plate)];
-  if (body.free) return motion.turns;
-  return motion.is_told && motion.across > motion.along;
+/// True if a motion takes the lowest point of a tool down by more than a cell below the top of what it is above.
+bool is_pressed(const RigidBodyDefinition& body, const ToolMotion& motion, const Scene& scene) {
+  const SimulationDefinition& definition = scene.definition;
+  int up = 0;
+  definition.gravity.cwiseAbs().maxCoeff(&up);
+  const double sense = definition.gravity[up] < 0.0 ? 1.0 : -1.0;
+  const Box start = world_bounds(body.pose, body.surface->bounds());
+  const double bottom = sense > 0.0 ? start.min[up] : -start.max[up];
+  double pressed = 0.0, before = bottom;
+  for (const Vec3& place : motion.places) {
+    const double now = bottom + sense * place[up];
+    double ground = -std::numeric_limits<double>::infinity();
+    for (const BodyDefinition& soil : scene.bodies) {
+      const Box bounds = soil.region.bounds();
+      bool beside = false;
+      for (const int axis : axes_of(definition.geometry)) {
+        if (axis == up) continue;
+        beside = beside || bounds.max[axis] < start.min[axis] + place[axis] ||
+                 bounds.min[axis] > start.max[axis] + place[axis];
+      }
+      if (!beside) ground = std::max(ground, sense > 0.0 ? bounds.max[up] : -bounds.min[up]);
+    }
+    pressed += std::max(std::min(before, ground) - now, 0.0);
+    before = now;
+  }
+  return pressed > definition.smallest_cell();
 }
 
-/// What rules look at of bodies that are not built yet.
+bool cuts_or_rolls(const RigidBodyDefinition& body, const ToolMotion& motion, const Scene& scene,
+                   const std::string& use) {
+  if (!use.empty()) return use != pace::kToolUseNames[static_cast<int>(pace::ToolUse::plate)];
+  if (body.free) return motion.turns;
+  return motion.across > motion.along && !is_pressed(body, motion, scene);
+}
+
+/// Bodies that are not built yet, with the names that rules look at.
 std::vector<DeformableBody> unbuilt(const Scene& scene) {
   std::vector<DeformableBody> bodies;
   for (const BodyDefinition& one : scene.bodies) {
@@ -47,7 +73,7 @@ std::vector<DeformableBody> unbuilt(const Scene& scene) {
   return bodies;
 }
 
-/// Whether two bodies of material have a law of contact, for which each has velocities of its own.
+/// True if two bodies of material have a law of contact, for which each has velocities of its own.
 bool has_pairs(const Scene& scene) {
   const auto is_rigid = [&](const std::string& name) {
     const auto& bodies = scene.definition.rigid_bodies;
@@ -79,18 +105,21 @@ bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
   if (!asked.names_transfer) after.method.transfer = transfer_of_implicit();
   after.bodies = unbuilt(scene);
   if (has_pairs(scene) || implicit_fault(after)) return false;
+  const WaveStep wave = wave_step(scene);
   const std::string use = use_of_tools(root);
-  const auto fits_all = [&](const RigidBodyDefinition& body) { return fits(body, use, before); };
-  if (!std::all_of(before.rigid_bodies.begin(), before.rigid_bodies.end(), fits_all)) return false;
-  const double step = before.time.step.value_or(kImplicitStep), explicit_step = wave_step(scene).dt;
-  if (!(step > kWorth * explicit_step)) return false;
+  for (const RigidBodyDefinition& body : before.rigid_bodies) {
+    const ToolMotion motion = tool_motion(body, before);
+    if (!cuts_or_rolls(body, motion, scene, use) || motion.fastest > kSlow * wave.speed) return false;
+  }
+  const double step = before.time.step.value_or(kImplicitStep);
+  if (!(step > kWorth * wave.dt)) return false;
   scene.definition.method = after.method;
   const auto is_transfer = [](const auto& choice) { return choice.first == "method.transfer"; };  // of explicit steps
   scene.choices.erase(std::remove_if(scene.choices.begin(), scene.choices.end(), is_transfer), scene.choices.end());
   scene.choices.emplace_back(
       "method", fmt::format("{}, {}, {}: soil with slow tools, where a step may last as long as {:.0f} explicit ones",
                             shape_name(after.method.shape), update_name(after.method.update),
-                            transfer_text(after.method.transfer), step / explicit_step));
+                            transfer_text(after.method.transfer), step / wave.dt));
   if (!before.time.step) take_implicit_step(scene);
   return true;
 }

@@ -58,9 +58,7 @@ void read_sleep(const Map& root, Scene& scene) {
   if (!section || (section->is_text() && section->choice({"off"}) == 0)) return;
   SimulationDefinition& definition = scene.definition;
   SleepDefinition sleep;
-  double cell = definition.grid.cell[0];
-  for (const int axis : axes_of(scene)) cell = std::min(cell, definition.grid.cell[axis]);
-  const double weight = definition.gravity.norm();
+  const double cell = definition.smallest_cell(), weight = definition.gravity.norm();
   const Map map(*section, {"speed", "wake", "after", "balance", "damping", "from_start"});
   if (const auto speed = map.find("speed")) {
     sleep.speed = speed->positive(kVelocity);

@@ -18,6 +18,7 @@ ToolMotion tool_motion(const RigidBodyDefinition& body, const SimulationDefiniti
   const double arm = 0.5 * size.norm();
   const Vec3 down = definition.gravity.normalized();  // zero where there is none
   ToolMotion motion;
+  Vec3 place = Vec3::Zero();
   for (int i = 0; i <= kLooksAtMotion; ++i) {
     Vec3 velocity, turning;
     try {
@@ -30,11 +31,13 @@ ToolMotion tool_motion(const RigidBodyDefinition& body, const SimulationDefiniti
     }
     motion.fastest = std::max(motion.fastest, velocity.norm() + arm * turning.norm());
     motion.turns = motion.turns || turning.norm() > 0.0;
-    const double along = velocity.dot(down);
-    motion.along += std::abs(along) * length / kLooksAtMotion;
-    motion.across += (velocity - along * down).norm() * length / kLooksAtMotion;
+    const Vec3 way = velocity * length / kLooksAtMotion;
+    const double along = way.dot(down);
+    motion.along += std::abs(along);
+    motion.across += (way - along * down).norm();
+    place += way;
+    motion.places.push_back(place);
   }
-  motion.is_told = motion.fastest > 0.0;
   return motion;
 }
 

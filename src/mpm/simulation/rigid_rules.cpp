@@ -12,9 +12,7 @@ namespace mpm {
 namespace {
 
 std::string divides_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  double cell = definition.grid.cell.x();
-  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
-  if (body.divides.empty() || has_sides(body, definition.geometry, cell)) return {};
+  if (body.divides.empty() || has_sides(body, definition.geometry, definition.smallest_cell())) return {};
   return "divides: it is too thick to divide anything (three cells or more); leave it out, or write sides: two";
 }
 

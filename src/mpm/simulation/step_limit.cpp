@@ -37,13 +37,14 @@ class SceneStep final : public Module {
   double dt_;
 };
 
-/// The time in which what moves and falls goes that way [m]: speed dt + gravity dt^2 = way.
+/// Time in which what moves and falls goes that way [m]: speed dt + gravity dt^2 = way. Not a number where the speed is
+/// none.
 double time_to_move(double way, double speed, double gravity) {
   const double sum = speed + std::sqrt(speed * speed + 4.0 * gravity * way);
-  return sum > 0.0 ? 2.0 * way / sum : std::numeric_limits<double>::infinity();
+  return sum == 0.0 ? std::numeric_limits<double>::infinity() : 2.0 * way / sum;
 }
 
-/// The largest magnitude; not a number where one is not finite.
+/// Largest magnitude; not a number where one is not finite.
 template <class T>
 double fastest_of(const T* v, int count, int threads) {
   double most = 0.0;
@@ -57,7 +58,7 @@ double fastest_of(const T* v, int count, int threads) {
   return finite ? most : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A speed that at most this part of the particles exceeds, to a 64th of the largest.
+/// Speed that at most this part of the particles exceeds, to a 64th of the largest.
 template <class T>
 double exceeded_by(double part, const T* v, int count, double largest, int threads) {
   constexpr int kBins = 64;
@@ -135,8 +136,8 @@ StepLimit Simulation::State::survey_motion() const {
         const double bulk = exceeded_by(kFastPart, v.data(), set.awake(), motion.speed, threads);
         motion.dt = std::min(motion.dt, time_to_move(kImplicitTravel * cell, bulk, gravity));
       });
-      limit.tighten(motion);
       if (!std::isfinite(motion.speed)) return motion;
+      limit.tighten(motion);
     }
   }
   return limit;

@@ -48,7 +48,7 @@ struct Cuts {
     const double face = i + 1.0;  // between the two
     double above = std::max(high - face, 0.0) * whole;
     above = above < kThinnest ? 0.0 : above > 1.0 - kThinnest ? 1.0 : above;
-    // Of a box in one cell the middle is that of the box.
+    // A box in one cell has its own middle there.
     const double lower = above > 0.0 ? 0.5 * (low - face) + 1.0 : at - i;
     const double upper = above < 1.0 ? 0.5 * (high - face) : at - face;
     cell[q] = i;
@@ -84,7 +84,7 @@ struct RadialCuts {
 };
 struct NoRadius {};
 
-/// Of a chunk of particles along each axis.
+/// Cuts of a chunk of particles along each axis.
 template <class Geometry, class T>
 struct Boxes {
   Cuts<T> along[Geometry::kDim];
@@ -161,8 +161,8 @@ struct Rows {
   using Truth = decltype(Sixteen{} < Sixteen{});
 };
 
-/// Of a piece along an axis, what the numbers of SoilSums are multiplied with: its part of the box, and in those lanes
-/// that are moments along the axis its middle as well.
+/// Factors of the numbers of SoilSums for a piece along an axis: its part of the box, and in those lanes that are
+/// moments along the axis its middle as well.
 template <class T>
 inline __attribute__((always_inline)) typename Rows<T>::Sixteen factors(const Cuts<T>& cuts, int q, int piece,
                                                                         typename Rows<T>::Truth moments) {

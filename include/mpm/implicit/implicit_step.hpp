@@ -45,6 +45,7 @@ struct ImplicitSettings {
   std::array<WallDefinition, 6> walls;
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  bool loads = false;           ///< whether forces act on nodes that are not in proportion to their mass
   Isa isa = Isa::plain;
   SweepBudget* budget = nullptr;  ///< of the sync period that steps are part of; null: they take their time
 };

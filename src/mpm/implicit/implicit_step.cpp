@@ -145,10 +145,20 @@ class ImplicitStep final : public Stage, public ContactReporter {
           const int axis = layout.axis(k);
           const std::uint8_t holder = soil_grid_.holder(block * per_block + n, axis);
           if (holder != SoilGrid::kFree && holder != SoilGrid::kPrescribed) continue;
-          node.v[axis] = static_cast<T>(grid_.velocity.at(block, k, n));
+          const bool moves = holder == SoilGrid::kFree;
+          node.v[axis] = static_cast<T>(moves ? start_of_solve(block, k, n) : grid_.velocity.at(block, k, n));
         }
       }
     });
+  }
+
+  /// The velocity of a node with the mass that the solve gives it. A force on a node that hardly has any of its own
+  /// would make momentum with what is added.
+  double start_of_solve(int block, int k, int n) const {
+    const double velocity = grid_.velocity.at(block, k, n);
+    if (!settings_.loads) return velocity;
+    const double mass = grid_.mass.at(block, 0, n), before = grid_.momentum.at(block, k, n) / mass;
+    return before + mass / (mass + lightest_) * (velocity - before);
   }
 
   /// As many as resolve the pressure that tools met in the last step, and not many less than in that step, so that the
@@ -273,7 +283,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         if (holder != SoilGrid::kFree) {
           deeds.held[holder][axis] += mass * by_sweeps;
         } else {
-          deeds.light[axis] -= lightest_ * by_sweeps;
+          deeds.light[axis] -= lightest_ * (settings_.loads ? found - start : by_sweeps);
         }
         // Of the work of all forces on the velocity of the end, what does not become motion.
         const double change = found - start;

@@ -55,14 +55,15 @@ class ParticleLoads final : public Stage {
 
   void momentum_updated(StepContext& context) override {
     double power = 0.0;
+    // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
+    const double back = context.works_at_end ? 0.0 : 0.5 * context.dt;
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       const Grid& grid = *fields_[f];
       const int count = dim_ * grid.layout.nodes_per_block();
       for (int b = 0; b < grid.blocks.size(); ++b) {
         if (!grid.counts(b)) continue;
         const double *load = nodal_[f].block(b), *v = grid.velocity.block(b), *a = grid.force.block(b);
-        // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
-        for (int n = 0; n < count; ++n) power += load[n] * (v[n] - 0.5 * context.dt * a[n]);
+        for (int n = 0; n < count; ++n) power += load[n] * (v[n] - back * a[n]);
       }
     }
     work_ += power * context.dt;

@@ -39,6 +39,8 @@ void add_implicit(RunParts& parts) {
   settings.walls = definition.walls;
   settings.threads = parts.threads;
   settings.gravity = definition.gravity;
+  settings.loads =
+      !definition.body_forces.empty() || !definition.particle_forces.empty() || !definition.tractions.empty();
   settings.isa = parts.isa;
   if (definition.time.budget) {
     parts.services.budget = std::make_unique<SweepBudget>(*definition.time.budget);

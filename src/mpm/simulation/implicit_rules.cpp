@@ -152,7 +152,6 @@ Fault other_part(const SimulationDefinition& d) {
                                    "write two conditions, or use method.update: usavg",
                                    condition.region.name)};
   }
-  if (!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()) return leave_out("loads");
   if (d.sleep && d.sleep->damping > 0.0) return leave_out("sleep.damping");
   if (!d.transport.quantities.empty()) return leave_out("transport");
   if (d.cracks.any()) return leave_out("cracks");

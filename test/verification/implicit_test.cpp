@@ -44,13 +44,52 @@ TEST(ImplicitStep, BladesMeetTheirLimitLoads) {
   }
 }
 
-// With 8 cells and sweeps enough, within a twentieth of exact.
-TEST(ImplicitStep, ABladeOfEightCells) {
-  const auto row = tool_force::run_places(tool_force::find_problem("blade_flat"), 8.0, {},
-                                          {"method={update: implicit, sweeps: 40}"});
-  ASSERT_EQ(row.status, "ok") << row.message;
-  EXPECT_NEAR(row.over_exact, 1.0, 0.05);
-  EXPECT_LT(row.spread, 0.06);
+// With 8 cells, within a twentieth of exact.
+TEST(ImplicitStep, BladesOfEightCells) {
+  double sum = 0.0;
+  for (const char* name : {"blade_flat", "blade_chisel"}) {
+    const auto row = tool_force::run_places(tool_force::find_problem(name), 8.0, {}, {"method={update: implicit}"});
+    ASSERT_EQ(row.status, "ok") << row.message;
+    EXPECT_LT(row.spread, 0.06);
+    sum += row.over_exact;
+    RecordProperty(name, fmt::format("{:.3f} {:.3f}", row.over_exact, row.spread));
+  }
+  EXPECT_NEAR(0.5 * sum, 1.0, 0.05);
+}
+
+// What is pressed down far above the soil's weight: strips, which a hundred plain sweeps leave at 0.75 and 0.85 of the
+// exact force, and a wall that turns about its foot, which they leave at 0.8. By 0.92, 0.97 and 1 with the default.
+TEST(ImplicitStep, LoadsFarAboveTheWeightAreMet) {
+  const std::pair<const char*, double> asked[] = {{"strip_nc", 0.88}, {"strip_nc_20", 0.92}, {"wall_turns", 0.94}};
+  for (const auto& [name, least] : asked) {
+    const auto row = tool_force::run_row(tool_force::find_problem(name), 8.0, {}, {"method={update: implicit}"});
+    ASSERT_EQ(row.status, "ok") << row.message;
+    EXPECT_GT(row.over_exact, least) << name;
+    EXPECT_LT(row.over_exact, 1.06) << name;
+    RecordProperty(name, fmt::format("{:.3f}", row.over_exact));
+  }
+}
+
+// A wheel pressed into sand by six of its fine cells: steps of 10 ms, as the scene asks for, are made shorter for it,
+// so that it meets what it meets in steps of 2.5 ms. (README has it beside explicit steps.)
+TEST(ImplicitStep, APressedWheelMeetsItsForceOnFineCells) {
+  const std::string wheel =
+      "rigid_bodies: [{name: wheel, shape: {sphere: {radius: 0.15}}, pose: {position: [0.2, 0.38]}, friction: 0.6, "
+      "motion: {velocity: [0, -0.14]}}]\n"
+      "grid: {cell: 0.005, min: [0, 0], max: [0.4, 0.6]}\ntime: {end: 0.44, sync: 0.01}\n"
+      "boundaries: {all: slip, z_min: fixed, z_max: none}\n";
+  const auto force = [&](const char* step) {
+    mpm::Simulation run =
+        start_text(sand(0.4, 0.2, wheel), {"bodies.sand.initial=geostatic", "materials.sand.young=0.5 MPa", step});
+    verification::run_until(run, 0.4);
+    run.take_contact(0);
+    verification::run_until(run, 0.44);
+    return run.take_contact(0).mean.force.z();
+  };
+  const double asked = force("time.step=0.01"), fine = force("time.step=0.0025");
+  EXPECT_NEAR(asked, fine, 0.1 * fine);
+  RecordProperty("asked", fmt::format("{:.4g}", asked));
+  RecordProperty("fine", fmt::format("{:.4g}", fine));
 }
 
 // What rests on friction does not creep: in 10 s by less than a thousandth of a cell (exact: not at all).

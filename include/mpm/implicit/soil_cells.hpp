@@ -69,6 +69,8 @@ class SoilCells {
   double of_hoops() const;
   /// The least initial density of the soils [kg/m^3].
   double least_density() const { return least_density_; }
+  /// The largest constrained modulus of the soils [Pa].
+  double modulus() const { return modulus_; }
 
  private:
   using Sums = mpm_kernel::SoilSums<T>;
@@ -96,7 +98,7 @@ class SoilCells {
   std::vector<int> begin_;      ///< of each block, its first group
   std::vector<Group> groups_;
   std::vector<mpm_kernel::SoilMask<T>> masks_;  ///< of each group
-  double least_density_ = 0.0;
+  double least_density_ = 0.0, modulus_ = 0.0;
 };
 
 }  // namespace mpm

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "mpm/contact/contact_ledger.hpp"
@@ -35,6 +36,12 @@ struct ToolRowSettings {
   double least_density = 0.0;  ///< of the soil, at the start [kg/m^3]
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
+};
+
+/// The tool on which soil presses most.
+struct ToolPressure {
+  double mean = 0.0;      ///< of the impulses' magnitudes over the area of the points that press [Pa]
+  std::int32_t body = 0;  ///< its number
 };
 
 template <class T>
@@ -63,12 +70,17 @@ class ToolRows {
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
   /// Solves the rows of free bodies, whose velocities change with each.
   void meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes);
+  /// SweepTable::extrapolate() of the rows of free bodies, and of these.
+  void extrapolate_free(double factor);
   /// Sum of the impulses' magnitudes [N s].
   double pressed() const;
   /// The largest mean pressure on the points of a body in contact at the start of the step, of a body that has moved
   /// far the less [Pa]: the stiffness of the soil shows while it is loaded, over the first kShort cells, and seldom
   /// when what fails has failed before.
   double pressure_to_resolve() const { return pressure_; }
+  /// In the last step.
+  const ToolPressure& pressure() const { return most_; }
+  const std::string& name(int body) const { return bodies_[body]->name(); }
   /// Books the impulses, with the nodes as they are now, gives free bodies the velocities that they have left them, and
   /// keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
@@ -132,7 +144,9 @@ class ToolRows {
   std::vector<double> areas_;  ///< of each body
   std::vector<Load> loads_;    ///< of each body
   std::vector<Vec3> travels_;  ///< of each body where it meets soil, the last kLong cells of it at the most [m]
-  double pressure_ = 0.0;      ///< [Pa]
+  double pressure_ = 0.0;      ///< to resolve [Pa]
+  std::vector<double> press_;  ///< of each body, sum of its impulses' magnitudes [N s]
+  ToolPressure most_;
 };
 
 }  // namespace mpm

@@ -43,6 +43,7 @@ template <class T>
 struct alignas(64) SoilGroup {
   T gradient[3][kCellNodes][kGroupCells];  ///< mean of the nodes' over the soil in the cell, or the hoop function [1/m]
   T stress[6][kGroupCells];                ///< r [Pa]
+  T before[6][kGroupCells];                ///< r as SweepTable::extrapolate() found it last [Pa]
   T shift[6][kGroupCells];  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
   T closing[kGroupCells];   ///< part of shift[0] by which openings close, or volume is given back [1/s]
   T weight_n[kGroupCells], weight_t[kGroupCells];          ///< change of the cell's e by its own r, at least [1/(Pa s)]
@@ -92,6 +93,7 @@ struct alignas(4 * sizeof(T)) ContactRow {
   T normal[3];              ///< out of the body
   T velocity[3];            ///< of the body there [m/s]
   T impulse[3];             ///< on the material [N s]
+  T before[3];              ///< impulse as extrapolate() found it last [N s]
   int node[kCellNodes];
 };
 
@@ -104,6 +106,7 @@ struct WallRow {
   T free[3];     ///< 1 along axes on which no other wall holds the node, else 0
   T friction;    ///< coefficient; negative: no sliding
   T impulse[3];  ///< [N s]
+  T before[3];   ///< impulse as extrapolate() found it last [N s]
 };
 
 /// What is swept in one block, in this order or backwards.
@@ -185,18 +188,26 @@ struct SweepTable {
   void (*push)(const SoilBlock<T>&, SoilNode<T>* nodes);
   /// Solves the cells of a block once. Returns how much that changed.
   SweepChange (*sweep)(const SoilBlock<T>&, SoilNode<T>* nodes, bool backwards);
+  /// Moves the stresses and impulses of a block, and the velocities of its `count` nodes, by `factor` times what they
+  /// have changed since the last call, and notes them as they were; with a factor of 0 it notes them alone. `nodes`,
+  /// `before`: of the block.
+  void (*extrapolate)(const SoilBlock<T>&, SoilNode<T>* nodes, SoilNode<T>* before, int count, T factor);
   /// Solves the contacts of a block, walls first.
   void (*meet)(const SoilBlock<T>&, SoilNode<T>* nodes);
   /// Solves one point of contact.
   void (*touch)(ContactRow<T>&, SoilNode<T>* nodes);
   void (*flow)(const SoilGroup<T>&, const SoilNode<T>* nodes, SoilFlow<T>&);
-  SoilPasses<T> passes[2];  ///< with two axes and with three
+  SoilPasses<T> passes;
 };
 
-/// One instruction set. By whether the cells are those of rings about an axis.
+/// Cells of space, of a plane strained in x and z, and sections of rings in x and z.
+enum class CellKind { space, plane, rings };
+constexpr int kCellKinds = 3;
+
+/// One instruction set, by CellKind.
 struct SweepFamily {
-  SweepTable<double> in_double[2];
-  SweepTable<float> in_single[2];
+  SweepTable<double> in_double[kCellKinds];
+  SweepTable<float> in_single[kCellKinds];
 };
 
 }  // namespace mpm_kernel

@@ -95,10 +95,11 @@ Eight<T> root(Eight<T> a) {
   return load(v);
 }
 
-/// The nodes of the cells of a group, a cell a lane: all, of rings (sections in a plane) the four that a cell has.
-template <class T, bool Rings>
+/// The nodes of the cells of a group, a cell a lane: eight in space, else the four that a cell has.
+template <class T, mpm_kernel::CellKind Kind>
 struct GroupNodes {
-  static constexpr int kCount = Rings ? mpm_kernel::kCellNodes / 2 : mpm_kernel::kCellNodes;
+  static constexpr int kCount =
+      Kind == mpm_kernel::CellKind::space ? mpm_kernel::kCellNodes : mpm_kernel::kCellNodes / 2;
   Corners<T> of[kCount];
 
   GroupNodes(const mpm_kernel::SoilGroup<T>& group, const mpm_kernel::SoilNode<T>* nodes) {

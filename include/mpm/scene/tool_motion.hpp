@@ -8,7 +8,7 @@
 namespace mpm {
 
 struct ToolMotion {
-  double fastest = 0.0;      ///< highest speed of its surface [m/s]
+  double fastest = 0.0;      ///< highest speed of its surface, of a free body at the start [m/s]
   double along = 0.0;        ///< way of its origin along gravity, to and fro [m]
   double across = 0.0;       ///< the same across gravity [m]
   bool turns = false;        ///< by one of its functions

@@ -102,6 +102,7 @@ class Run {
   void look_for_lost_bodies();
   void look_for_fast_bodies();
   void look_for_lost_tips();
+  void look_for_soft_sweeps();
   /// What a checkpoint holds beside the simulation.
   void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
 
@@ -124,6 +125,7 @@ class Run {
     bool no_j = false, stopped = false;
   };
   std::vector<ToldOfTip> told_of_tips_;
+  bool told_of_sweeps_ = false;
   BudgetWatch budget_watch_;
   std::vector<std::string> warnings_;
   struct Jump {

@@ -7,21 +7,24 @@
 
 #include "mpm/boundary/axis.hpp"
 #include "mpm/grid/each_share.hpp"
+#include "mpm/implicit/sweep_momentum.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr int kMostSweeps = 100;
-constexpr double kPerSecond = 1000.0;  ///< sweeps that soil without a tool needs at the least, for its own weight
-constexpr double kStiffer = 60.0;      ///< modulus that sweeps resolve over the mean pressure on tools
-constexpr double kSettled = 2e-3;      ///< change of all stresses in a sweep, over the stresses
-constexpr double kForceError = 0.02;  ///< change of the forces on tools in the last half of the sweeps, over the forces
-constexpr int kWholeSweeps = 2;       ///< that take all blocks, whether they need it or not
-constexpr double kQuiet = 0.1;        ///< of a block's share of what is left to settle: of less it is not swept again
-constexpr double kKept = 0.9;         ///< of the sweeps of the step before, at the least
-constexpr double kLightest = 1e-6;    ///< of a cell full of soil: what is added to a node's mass in the solve
+constexpr double kStiffer = 240.0;  ///< modulus that sweeps resolve over the mean pressure on tools
+constexpr double kOwn = 4.0;        ///< the same over the soil's own modulus, more than which is of no use
+constexpr double kSettled = 2e-3;   ///< change of all stresses in a sweep, over the stresses
+// Change of the forces on tools in the second half of the sweeps: over the forces, and over what the step has changed
+// them by, since of a force that grows slowly an error in each step adds up.
+constexpr double kForceError = 0.02, kLeastForceError = 0.003, kOfGain = 0.25;
+constexpr double kHeld = 10.0;      ///< pressure on a tool over rho (h / dt)^2, at the most
+constexpr int kWholeSweeps = 2;     ///< that take all blocks, whether they need it or not
+constexpr double kQuiet = 0.1;      ///< of a block's share of what is left to settle: of less it is not swept again
+constexpr double kKept = 0.9;       ///< of the sweeps of the step before, at the least
+constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
 class ImplicitStep final : public Stage, public ContactReporter {
@@ -49,13 +52,31 @@ class ImplicitStep final : public Stage, public ContactReporter {
   }
 
   std::string name() const override { return kImplicitName; }
+  /// Under pressure that is many times rho (h / dt)^2 a step is shorter: to the motion of a cell's nodes against each
+  /// other that leaves its mean strain at none, no stress of the cell answers, and where soil is not spread evenly it
+  /// drives that motion.
+  void limit_step(const PeriodAhead& period, StepLimit& limit) const override {
+    const ToolPressure& pressed = tools_.pressure();
+    if (!(pressed.mean > 0.0)) return;
+    StepLimit own;
+    own.by = this;
+    own.part = static_cast<int>(sets_.size()) + pressed.body;
+    own.speed = pressed.mean;
+    own.dt = period.cell * std::sqrt(kHeld * cells_.least_density() / pressed.mean);
+    limit.tighten(own);
+  }
   std::string limit_text(const StepLimit& limit) const override {
+    const int tool = limit.part - static_cast<int>(sets_.size());
+    if (tool >= 0) return fmt::format("pressure on '{}' ({:.3g} kPa)", tools_.name(tool), 1e-3 * limit.speed);
     return fmt::format("motion of '{}' (up to {:.4g} m/s)", sets_[limit.part].name, limit.speed);
   }
   Ranks ranks(Hook) const override { return {Rank::implicit}; }
   std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set,
                                            int particle) const override {
-    return soil_grid_.axis() ? outside_at_axis(layout, set, particle) : std::nullopt;
+    std::optional<OutsideReason> reason;
+    if (soil_grid_.axis()) reason = outside_at_axis(layout, set, particle);
+    if (reason) reason->remedy = "lower time.step, or use method.update: usavg";
+    return reason;
   }
 
   void step_ended() override { sorts_ = tools_.put_out(sets_, grid_); }
@@ -92,6 +113,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   void numbers(std::vector<NamedNumber>& list) const override {
     list.push_back({"sweeps", "1", static_cast<double>(sweeps_)});
     list.push_back({"sweep_change", "1", change_});
+    list.push_back({"sweep_modulus", "Pa", modulus_});
+    list.push_back({"sweep_load", "1", load_});
     if (settings_.budget != nullptr) settings_.budget->numbers(list);
   }
   ContactLedger* ledger_of(const RigidBody& body) override {
@@ -114,6 +137,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     archive.value("least", least_);
     archive.value("sweeps", sweeps_);
     archive.value("change", change_);
+    archive.value("modulus", modulus_);
+    archive.value("load", load_);
     if (settings_.budget == nullptr) return;
     const StateArchive::Group group(archive, "budget");
     settings_.budget->serialise(archive);
@@ -134,6 +159,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     const GridLayout& layout = grid_.layout;
     const int per_block = layout.nodes_per_block(), dim = layout.dim();
     nodes_.resize(soil_grid_.numbers());
+    before_.resize(soil_grid_.nodes());
     std::fill(nodes_.begin() + soil_grid_.nodes(), nodes_.end(), Node{});
     soil_grid_.shares().at_once(settings_.threads, [&](int block) {
       for (int n = 0; n < per_block; ++n) {
@@ -161,16 +187,28 @@ class ImplicitStep final : public Stage, public ContactReporter {
     return before + mass / (mass + lightest_) * (velocity - before);
   }
 
+  /// Modulus that one sweep resolves [Pa].
+  double unit(double dt) const {
+    const double cell = grid_.layout.smallest_cell();
+    return cells_.least_density() * cell * cell / (dt * dt);
+  }
   /// As many as resolve the pressure that tools met in the last step, and not many less than in that step, so that the
   /// force does not jump with their number.
   int sweeps_needed(double dt) const {
     if (settings_.sweeps) return *settings_.sweeps;
-    const double cell = grid_.layout.smallest_cell();
-    const double per_sweep = cells_.least_density() * cell * cell / (dt * dt);
-    const double needed = std::ceil(kStiffer * tools_.pressure_to_resolve() / per_sweep);
-    const double least = std::max<double>(kLeastSweeps, std::ceil(kPerSecond * dt - 1e-9));
-    const double wanted = std::isfinite(needed) ? std::max(needed, least) : least;
-    return std::max(static_cast<int>(kKept * least_), static_cast<int>(std::min<double>(wanted, kMostSweeps)));
+    const double needed = std::min(kStiffer * tools_.pressure_to_resolve(), kOwn * cells_.modulus()) / unit(dt);
+    const int wanted = std::isfinite(needed) ? sweeps_for(needed, kMostSweeps) : 0;
+    return std::max({static_cast<int>(kKept * least_), wanted, kLeastSweeps});
+  }
+
+  /// Before a pair of sweeps: all unknowns go on (sweep_momentum.hpp).
+  void go_on(double factor) {
+    const int per_block = grid_.layout.nodes_per_block();
+    soil_grid_.shares().at_once(settings_.threads, [&](int block) {
+      const int first = block * per_block;
+      table_.extrapolate(block_at(block), &nodes_[first], &before_[first], per_block, static_cast<T>(factor));
+    });
+    tools_.extrapolate_free(factor);
   }
 
   void meet() {
@@ -187,6 +225,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     stirred_.assign(grid_.blocks.size(), 1);
     mpm_kernel::SweepChange sum{0.0, 0.0};  // of the last sweep
     bool settled = false;
+    restart_.begin();
     pressed_.clear();
     pressed_.push_back(tools_.pressed());
     SweepBudget* budget = settings_.budget;
@@ -194,6 +233,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
       if (budget != nullptr && budget->ends_after(sweeps_)) break;
       const bool backwards = sweeps_ % 2 == 1;
+      if (!backwards) go_on(restart_.factor(sum.change));
       if (sweeps_ >= kWholeSweeps) find_stirred(kQuiet * std::min(kSettled * kSettled * sum.size, sum.change));
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
         if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
@@ -208,7 +248,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
         sum.size += one.size;
         sum.change += one.change;
       }
-      settled = sum.change <= kSettled * kSettled * sum.size && change_ <= kForceError;
+      const double gained = now > 0.0 ? std::abs(now - pressed_.front()) / now : 0.0;
+      const double allowed = std::clamp(kOfGain * gained, kLeastForceError, kForceError);
+      settled = sum.change <= kSettled * kSettled * sum.size && change_ <= allowed;
     }
     if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
   }
@@ -249,6 +291,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     if (soil_grid_.rings()) hoops_.add(cells_.of_hoops() * Vec3::UnitX());
     walls_.finish(nodes_, held, dt);
     tools_.finish(nodes_, dt);
+    modulus_ = unit(dt) * modulus_of(sweeps_);
+    load_ = std::max(load_, tools_.pressure().mean / modulus_);
   }
 
   /// What a step did in a block beside moving the soil.
@@ -305,6 +349,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   WallRows<T> walls_;
   HeldImpulses held_;
   std::vector<Node> nodes_;
+  std::vector<Node> before_;  ///< as the last pair of sweeps began with them
+  MomentumRestart restart_;
   double lightest_ = 0.0;        ///< [kg]
   ImpulseAccount light_;         ///< what light nodes were not given
   ImpulseAccount axis_, hoops_;  ///< along r, as boundary/axis.hpp has them
@@ -317,6 +363,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
   std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for
   std::int32_t sweeps_ = 0;
   double change_ = 0.0;
+  double modulus_ = 0.0;  ///< that the sweeps of the last step resolve [Pa]
+  double load_ = 0.0;     ///< largest pressure on a tool over it
 };
 
 }  // namespace

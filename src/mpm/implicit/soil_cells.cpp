@@ -77,7 +77,10 @@ template <class T>
 SoilCells<T>::SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads)
     : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {
   least_density_ = bodies_.soils.front().density;
-  for (const ImplicitSoil& soil : bodies_.soils) least_density_ = std::min(least_density_, soil.density);
+  for (const ImplicitSoil& soil : bodies_.soils) {
+    least_density_ = std::min(least_density_, soil.density);
+    modulus_ = std::max(modulus_, soil.bulk + 4.0 / 3.0 * soil.shear);
+  }
 }
 
 // A particle's box lies in the blocks around its owner.
@@ -175,7 +178,7 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
   });
   views_.clear();
   for (int body = 0; body < bodies; ++body) views_.push_back(view_of(body));
-  const mpm_kernel::SoilPasses<T>& passes = table.passes[grid.layout.dim() - 2];
+  const mpm_kernel::SoilPasses<T>& passes = table.passes;
   grid.shares.by_colour(threads_, [&](int owner) {
     for (int body = 0; body < bodies; ++body) {
       each_owner(body, owner, [&](int first, int last, const int* corner, const mpm_kernel::SoilPlacesOf<T>& places) {
@@ -347,7 +350,7 @@ void SoilCells<T>::take(const mpm_kernel::SweepTable<T>& table, const std::vecto
   grid_.shares().at_once(threads_, [&](int block) {
     for (int group = begin_[block]; group < begin_[block + 1]; ++group) find_motion(table, nodes, group);
   });
-  const mpm_kernel::SoilPasses<T>& passes = table.passes[grid.layout.dim() - 2];
+  const mpm_kernel::SoilPasses<T>& passes = table.passes;
   grid.shares.at_once(threads_, [&](int owner) {
     for (int body = 0; body < static_cast<int>(bodies_.list.size()); ++body) {
       each_owner(body, owner, [&](int first, int last, const int* corner, const mpm_kernel::SoilPlacesOf<T>& places) {

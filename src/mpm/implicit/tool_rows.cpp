@@ -15,6 +15,10 @@ constexpr double kClearance = 0.6;           ///< cells from a convex edge
 constexpr double kShort = 1.5, kLong = 6.0;  ///< cells of travel (pressure_to_resolve())
 constexpr double kPresent = 0.2;             ///< of the soil's density, from which on a point is in contact
 
+constexpr double kAnswers = 1e-6;  ///< of a row's largest answer to an impulse, that along its normal at the least
+
+constexpr int kRoomForHeld = 4;  ///< parts of a point's impulse that walls take, of all points in the mean
+
 double at_least_zero(double value) { return std::max(value, 0.0); }
 
 template <class T>
@@ -53,7 +57,7 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
   found_places_.resize(points);
   touches_.resize(points);
   travels_.assign(bodies_.size(), Vec3::Zero());
-  held_.reserve(points);
+  held_.reserve(kRoomForHeld * points);
 }
 
 template <class T>
@@ -134,13 +138,15 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
     mass += weights[e] / im;
   }
   if (!(mass > kPresent * settings_.least_density * volume)) return false;
-  double own[3] = {};
+  Vec3 own = Vec3::Zero();  // along the axes of the grid; the others do not move
   place.prescribed.setZero();
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     const double weight = weights[e] / carrying;
     place.weight[e] = weight;
     row.weight[e][3] = T(0);
-    for (int a = 0; a < 3; ++a) {
+    for (int k = 0; k < 3; ++k) row.weight[e][k] = T(0);
+    for (int k = 0; k < dim; ++k) {
+      const int a = layout.axis(k);
       const bool held = grid_.holder(row.node[e], a) != SoilGrid::kFree;
       row.weight[e][a] = held ? T(0) : static_cast<T>(weight);
       if (held) {
@@ -150,14 +156,16 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
       }
     }
   }
-  double most = std::max({own[0], own[1], own[2]});
-  if (!(most > 0.0)) return false;
-  if (const FreeMotion* motion = of.free_motion())
-    most += motion->compliance_at(at).cwiseAbs().rowwise().sum().maxCoeff();
+  const Vec3 normal = of.pose().orientation * point.normal;
+  const FreeMotion* motion = of.free_motion();
+  const Mat3 compliance = motion != nullptr ? motion->compliance_at(at) : Mat3(Mat3::Zero());
+  const double most = own.maxCoeff() + compliance.cwiseAbs().rowwise().sum().maxCoeff();
+  // Where nothing that is free along the normal answers, an impulse would grow without end.
+  const double answer = normal.cwiseAbs2().dot(own) + normal.dot(compliance * normal);
+  if (!(answer > kAnswers * most)) return false;
   row.own = static_cast<T>(most);
   row.friction = law.stick ? T(-1) : static_cast<T>(law.coefficient);
-  const Vec3 normal = of.pose().orientation * point.normal;
-  const Vec3 velocity = of.free_motion() != nullptr ? of.free_motion()->velocity_at(at) : of.velocity_at(at);
+  const Vec3 velocity = motion != nullptr ? motion->velocity_at(at) : of.velocity_at(at);
   for (int a = 0; a < 3; ++a) {
     row.normal[a] = static_cast<T>(normal[a]);
     row.velocity[a] = static_cast<T>(velocity[a] - place.prescribed[a]);
@@ -248,6 +256,20 @@ void ToolRows<T>::meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<
 }
 
 template <class T>
+void ToolRows<T>::extrapolate_free(double factor) {
+  for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    const Vec3 was = vector_of(row.impulse);
+    const Vec3 more = factor != 0.0 ? Vec3(factor * (was - vector_of(row.before))) : Vec3(Vec3::Zero());
+    for (int a = 0; a < 3; ++a) {
+      row.before[a] = row.impulse[a];
+      row.impulse[a] += static_cast<T>(more[a]);
+    }
+    free_.motion(places_[i].body)->push(was - vector_of(row.impulse), places_[i].at);
+  }
+}
+
+template <class T>
 double ToolRows<T>::pressed() const {
   double sum = 0.0;
   for (const Row& row : rows_) sum += magnitude(row.impulse);
@@ -298,6 +320,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
   std::vector<int>& touched = next_;
   touched.assign(bodies_.size(), 0);
   areas_.assign(bodies_.size(), 0.0);
+  press_.assign(bodies_.size(), 0.0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
     const Place& place = places_[i];
@@ -324,14 +347,22 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     if (impulse.squaredNorm() > 0.0) {
       ++touched[place.body];
       areas_[place.body] += place.area;
+      press_[place.body] += impulse.norm();
     }
   }
-  for (std::size_t b = 0; b < bodies_.size(); ++b) ledgers_[b].end_step(dt, touched[b], areas_[b]);
+  most_ = {};
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    ledgers_[b].end_step(dt, touched[b], areas_[b]);
+    const double mean = areas_[b] > 0.0 ? press_[b] / (areas_[b] * dt) : 0.0;
+    if (mean > most_.mean) most_ = {mean, static_cast<std::int32_t>(b)};
+  }
   free_.finish();
 }
 
 template <class T>
 void ToolRows<T>::serialise(StateArchive& archive) {
+  archive.value("pressure", most_.mean);
+  archive.value("pressed", most_.body);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const StateArchive::Group group(archive, "body_" + std::to_string(b));
     ledgers_[b].serialise(archive);

@@ -88,6 +88,11 @@ const mpm_kernel::ShapeKernels<float>& of(const mpm_kernel::ShapeFamily& family,
 const mpm_kernel::LawKernels<double>* of(const mpm_kernel::LawFamily& family, double) { return family.in_double; }
 const mpm_kernel::LawKernels<float>* of(const mpm_kernel::LawFamily& family, float) { return family.in_single; }
 
+mpm_kernel::CellKind cell_kind(GeometryKind geometry) {
+  if (axisymmetric(geometry)) return mpm_kernel::CellKind::rings;
+  return dimensions(geometry) == 3 ? mpm_kernel::CellKind::space : mpm_kernel::CellKind::plane;
+}
+
 }  // namespace
 
 template <class T>
@@ -103,11 +108,11 @@ mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, 
 
 template <>
 const mpm_kernel::SweepTable<double>& sweep_table<double>(Isa isa, GeometryKind geometry) {
-  return kSweeps[static_cast<int>(isa)]().in_double[axisymmetric(geometry)];
+  return kSweeps[static_cast<int>(isa)]().in_double[static_cast<int>(cell_kind(geometry))];
 }
 template <>
 const mpm_kernel::SweepTable<float>& sweep_table<float>(Isa isa, GeometryKind geometry) {
-  return kSweeps[static_cast<int>(isa)]().in_single[axisymmetric(geometry)];
+  return kSweeps[static_cast<int>(isa)]().in_single[static_cast<int>(cell_kind(geometry))];
 }
 
 template mpm_kernel::KernelTable<double> kernel_table<double>(ShapeKind, GeometryKind, Isa);

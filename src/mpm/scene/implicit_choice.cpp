@@ -8,6 +8,7 @@
 #include "mpm/implicit/implicit_step.hpp"
 #include "mpm/pace/tool_use.hpp"
 #include "mpm/scene/feasible.hpp"
+#include "mpm/scene/scene_warnings.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/tool_motion.hpp"
 #include "mpm/simulation/implicit_rules.hpp"
@@ -106,10 +107,11 @@ bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
   after.bodies = unbuilt(scene);
   if (has_pairs(scene) || implicit_fault(after)) return false;
   const WaveStep wave = wave_step(scene);
+  const double slowest = slowest_wave(scene).speed;
   const std::string use = use_of_tools(root);
   for (const RigidBodyDefinition& body : before.rigid_bodies) {
     const ToolMotion motion = tool_motion(body, before);
-    if (!cuts_or_rolls(body, motion, scene, use) || motion.fastest > kSlow * wave.speed) return false;
+    if (!cuts_or_rolls(body, motion, scene, use) || motion.fastest > kSlow * slowest) return false;
   }
   const double step = before.time.step.value_or(kImplicitStep);
   if (!(step > kWorth * wave.dt)) return false;

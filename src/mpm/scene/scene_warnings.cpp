@@ -7,6 +7,7 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/scene/tool_motion.hpp"
 
 namespace mpm {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kMostWeightStrain = 0.1;  ///< of a body under its own weight
 constexpr double kLightest = 5.0;          ///< [kg/m^3]; solids and liquids are heavier, foams among them
 constexpr double kHeaviest = 23000.0;      ///< [kg/m^3]; osmium has 22,590
-constexpr int kTimesOfMotion = 64;         ///< at which a tool's velocity is looked at
 constexpr double kRoundOff = 1e-9;
 
 /// Laws whose stiffness is a constant of the material, and resists volume changes.
@@ -63,31 +63,10 @@ void look_at_density(const MaterialDefinition& material, std::vector<std::string
       material.density < kLightest ? "lighter than any solid or liquid" : "heavier than any matter"));
 }
 
-/// The largest speed of a tool's surface that functions of time prescribe.
-double prescribed_speed(const RigidBodyDefinition& body, double end) {
-  const Box bounds = body.surface->bounds();
-  Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
-  for (double& side : corner) side = std::isfinite(side) ? side : 0.0;
-  const double reach = corner.norm();
-  double most = 0.0;
-  for (int i = 0; i <= kTimesOfMotion; ++i) {
-    const double t = end * i / kTimesOfMotion;
-    try {
-      const Vec3 linear(body.velocity[0](t), body.velocity[1](t), body.velocity[2](t));
-      const Vec3 angular(body.rotation_rate[0](t), body.rotation_rate[1](t), body.rotation_rate[2](t));
-      most = std::max(most, linear.norm() + reach * angular.norm());
-    } catch (const FunctionError&) {
-      continue;  // the run will tell of it
-    }
-  }
-  if (body.free) most = std::max(most, body.free->velocity.linear.norm() + reach * body.free->velocity.angular.norm());
-  return most;
-}
-
 void look_at_speeds(const Scene& scene, std::vector<std::string>& warnings) {
   const SlowestWave wave = slowest_wave(scene);
   for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) {
-    const double speed = prescribed_speed(body, scene.definition.time.end);
+    const double speed = tool_motion(body, scene.definition).fastest;
     if (speed > wave.speed) warnings.push_back(faster_than_waves(body.name, speed, wave));
   }
 }

@@ -13,9 +13,10 @@ constexpr int kLooksAtMotion = 100;  ///< of a motion over the run
 
 ToolMotion tool_motion(const RigidBodyDefinition& body, const SimulationDefinition& definition) {
   const double length = definition.time.end > 0.0 ? definition.time.end : kWhile;
-  // Along an axis without end, as y in a plane, it does not turn.
-  const Vec3 size = body.surface->bounds().size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
-  const double arm = 0.5 * size.norm();
+  // It turns about its origin; not along an axis without end, as y in a plane.
+  const Box bounds = body.surface->bounds();
+  const Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
+  const double arm = corner.unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; }).norm();
   const Vec3 down = definition.gravity.normalized();  // zero where there is none
   ToolMotion motion;
   Vec3 place = Vec3::Zero();
@@ -37,6 +38,10 @@ ToolMotion tool_motion(const RigidBodyDefinition& body, const SimulationDefiniti
     motion.across += (way - along * down).norm();
     place += way;
     motion.places.push_back(place);
+  }
+  if (body.free) {
+    const Twist& start = body.free->velocity;
+    motion.fastest = std::max(motion.fastest, start.linear.norm() + arm * start.angular.norm());
   }
   return motion;
 }

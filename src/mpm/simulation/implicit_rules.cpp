@@ -22,9 +22,11 @@ Fault method_part(const SimulationDefinition& d) {
     return MethodFault{"geometry",
                        "implicit steps are made for solid, plane_strain and axisymmetric; use method.update: usavg"};
   }
-  if (d.method.axis.domains != AxisDomains::fitted || d.method.axis.functions != AxisFunctions::weighted) {
+  const AxisRules axis;
+  if (method.axis.domains != axis.domains || method.axis.functions != axis.functions ||
+      method.axis.ghosts != axis.ghosts) {
     return MethodFault{"method.axis",
-                       "implicit steps have rings that end at the axis; leave domains and functions out"};
+                       "implicit steps have rings that end at the axis; leave domains, functions and ghosts out"};
   }
   if (method.shape != ShapeKind::ugimp)
     return MethodFault{"method.shape", "implicit steps have ugimp alone; leave it out"};
@@ -38,8 +40,12 @@ Fault method_part(const SimulationDefinition& d) {
     return MethodFault{"method.average_dilatation",
                        "implicit steps have one stress in a cell, which does not lock; leave it out"};
   }
-  if (method.average_stress.value_or(false)) {
+  if (method.average_stress) {
     return MethodFault{"method.average_stress", "implicit steps have one stress in a cell as it is; leave it out"};
+  }
+  if (method.gradient_terms != MethodDefinition().gradient_terms) {
+    return MethodFault{"method.gradient_terms",
+                       fmt::format("implicit steps have {} terms; leave it out", MethodDefinition().gradient_terms)};
   }
   if (method.damping.any()) return MethodFault{"method.damping", "implicit steps have none; leave it out"};
   if (method.sweeps && !(*method.sweeps >= 1 && *method.sweeps <= kMostImplicitSweeps)) {
@@ -102,7 +108,12 @@ Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) 
     return MethodFault{
         key,
         "implicit steps meet bodies at points of their surface, which has to end; write a box that is as large as "
-        "the scene needs"};
+        "the scene needs, or use method.update: usavg"};
+  }
+  if (!body.divides.empty()) {
+    return MethodFault{key,
+                       "implicit steps have one velocity at a node, so that nothing is divided; leave divides out, "
+                       "or use method.update: usavg"};
   }
   if (body.reach > 0.0) return MethodFault{key, "implicit steps have no reach; leave it out"};
   if (body.sides == Sides::two) {

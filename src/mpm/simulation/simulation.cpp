@@ -101,8 +101,9 @@ void Simulation::State::sort(double now) {
         if (fault) fail(fault->what, *outside, now, fault->remedy);
       }
       fail("a particle is outside the domain or not finite", *outside, now,
-           "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew "
-           "up");
+           fmt::format("enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower {} if the run "
+                       "blew up",
+                       definition.method.update == UpdateScheme::implicit ? "time.step" : "time.cfl"));
     });
   }
   if (!over) return;

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
 #include <utility>
 
+#include "mpm/implicit/sweep_momentum.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/resumed_scene.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
@@ -125,6 +127,7 @@ void Run::advance(std::chrono::steady_clock::duration late) {
   look_for_lost_bodies();
   look_for_fast_bodies();
   look_for_lost_tips();
+  look_for_soft_sweeps();
   if (simulation_.budget() != nullptr) budget_watch_.look(*simulation_.budget(), simulation_.time(), warnings_);
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
@@ -208,6 +211,19 @@ void Run::look_for_lost_tips() {
           which, time, tip.state));
     }
   }
+}
+
+// Told once.
+void Run::look_for_soft_sweeps() {
+  if (told_of_sweeps_ || simulation_.definition().method.update != mpm::UpdateScheme::implicit) return;
+  const std::vector<mpm::NamedNumber> numbers = simulation_.numbers();
+  const auto load = std::find_if(numbers.begin(), numbers.end(), [](const auto& n) { return n.name == "sweep_load"; });
+  if (load == numbers.end() || !(load->value > mpm::kMostSweepLoad)) return;
+  told_of_sweeps_ = true;
+  warnings_.push_back(fmt::format(
+      "at t = {:.6g} s the pressure on a tool has come to 1/{:.2g} of the modulus that the sweeps of a step resolve; "
+      "above 1/{:.2g} the force on it is too small: leave method.sweeps out, or write a shorter time.step",
+      static_cast<double>(simulation_.time()) * 1e-9, 1.0 / load->value, 1.0 / mpm::kMostSweepLoad));
 }
 
 std::vector<std::string> Run::take_warnings() { return std::exchange(warnings_, {}); }

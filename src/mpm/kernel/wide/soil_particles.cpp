@@ -326,13 +326,19 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
 }  // namespace
 
 template <class T>
-mpm_kernel::SoilPasses<T> soil_passes(int axes, bool rings) {
-  if (rings) return {&gather<Axisymmetric, T>, &take<Axisymmetric, T>};
-  if (axes == 3) return {&gather<Solid, T>, &take<Solid, T>};
-  return {&gather<PlaneStrain, T>, &take<PlaneStrain, T>};
+mpm_kernel::SoilPasses<T> soil_passes(mpm_kernel::CellKind kind) {
+  switch (kind) {
+    case mpm_kernel::CellKind::space:
+      return {&gather<Solid, T>, &take<Solid, T>};
+    case mpm_kernel::CellKind::plane:
+      return {&gather<PlaneStrain, T>, &take<PlaneStrain, T>};
+    case mpm_kernel::CellKind::rings:
+      break;
+  }
+  return {&gather<Axisymmetric, T>, &take<Axisymmetric, T>};
 }
 
-template mpm_kernel::SoilPasses<double> soil_passes(int axes, bool rings);
-template mpm_kernel::SoilPasses<float> soil_passes(int axes, bool rings);
+template mpm_kernel::SoilPasses<double> soil_passes(mpm_kernel::CellKind kind);
+template mpm_kernel::SoilPasses<float> soil_passes(mpm_kernel::CellKind kind);
 
 }  // namespace mpm

@@ -9,7 +9,7 @@ namespace mpm {
 
 // soil_particles.cpp
 template <class T>
-mpm_kernel::SoilPasses<T> soil_passes(int axes, bool rings);
+mpm_kernel::SoilPasses<T> soil_passes(mpm_kernel::CellKind kind);
 // soil_contacts.cpp
 template <class T>
 void meet_contacts(const mpm_kernel::SoilBlock<T>& block, mpm_kernel::SoilNode<T>* nodes);
@@ -18,6 +18,7 @@ void touch_contact(mpm_kernel::ContactRow<T>& row, mpm_kernel::SoilNode<T>* node
 
 namespace {
 
+using mpm_kernel::CellKind;
 using mpm_kernel::kCellNodes;
 using mpm_kernel::kGroupCells;
 using mpm_kernel::SoilBlock;
@@ -27,11 +28,12 @@ using mpm_kernel::SoilMask;
 using mpm_kernel::SoilNode;
 using mpm_kernel::SoilPlaces;
 
-// Rings: about an axis, where a node's gradient along y is its hoop function, the mean of N / r.
+// Of rings a node's gradient along y is its hoop function, the mean of N / r; of planes it is none, and what follows
+// from motion along y is left out.
 
 /// Rates of strain, mapped, from the velocities of the nodes.
-template <class T, bool Rings>
-inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T, Rings>& nodes,
+template <class T, CellKind Kind>
+inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T, Kind>& nodes,
                                                 Eight<T> (&e)[6]) {
   // Of even and odd nodes apart, so that half as many sums wait for each other.
   Eight<T> part[2][6] = {};
@@ -40,11 +42,11 @@ inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const
     const Corners<T>& v = nodes.of[n];
     Eight<T>(&sums)[6] = part[n % 2];
     sums[0] += x * v.x;
-    sums[1] += y * (Rings ? v.x : v.y);
+    if constexpr (Kind != CellKind::plane) sums[1] += y * (Kind == CellKind::rings ? v.x : v.y);
     sums[2] += z * v.z;
-    if constexpr (!Rings) sums[3] += y * v.z + z * v.y;
+    if constexpr (Kind == CellKind::space) sums[3] += y * v.z + z * v.y;
     sums[4] += x * v.z + z * v.x;
-    if constexpr (!Rings) sums[5] += x * v.y + y * v.x;
+    if constexpr (Kind == CellKind::space) sums[5] += x * v.y + y * v.x;
   }
   Eight<T> whole[6];
   for (int i = 0; i < 6; ++i) whole[i] = part[0][i] + part[1][i];
@@ -58,9 +60,9 @@ inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const
 }
 
 /// What changes `d` of the stresses do to the velocities of the nodes.
-template <class T, bool Rings>
+template <class T, CellKind Kind>
 inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks,
-                                                  const Eight<T> (&d)[6], GroupNodes<T, Rings>& nodes) {
+                                                  const Eight<T> (&d)[6], GroupNodes<T, Kind>& nodes) {
   const Eight<T> f = load(group.push);
   const Eight<T> p = static_cast<T>(kRoot3) * d[0], q = static_cast<T>(kRoot6) * d[2],
                  h = static_cast<T>(kRoot2) * d[1];
@@ -69,17 +71,23 @@ inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, con
   for (int n = 0; n < nodes.kCount; ++n) {
     const Eight<T> bx = load(group.gradient[0][n]), by = load(group.gradient[1][n]), bz = load(group.gradient[2][n]);
     Corners<T>& v = nodes.of[n];
-    Eight<T> x = v.m * (bx * sx + by * (Rings ? sy : xy) + bz * xz);
-    Eight<T> y = Rings ? Eight<T>{} : v.m * (bx * xy + by * sy + bz * yz);
-    Eight<T> z = v.m * (bx * xz + by * yz + bz * sz);
+    Eight<T> x = bx * sx + bz * xz, y{}, z = bx * xz + bz * sz;
+    if constexpr (Kind == CellKind::rings) x += by * sy;
+    if constexpr (Kind == CellKind::space) {
+      x += by * xy;
+      y = v.m * (bx * xy + by * sy + bz * yz);
+      z += by * yz;
+    }
+    x *= v.m;
+    z *= v.m;
     if (group.mask >= 0) {
       const SoilMask<T>& mask = masks[group.mask];
       x *= load(mask.free[0][n]);
-      y *= load(mask.free[1][n]);
+      if constexpr (Kind == CellKind::space) y *= load(mask.free[1][n]);
       z *= load(mask.free[2][n]);
     }
     v.x += x;
-    v.y += y;
+    if constexpr (Kind == CellKind::space) v.y += y;
     v.z += z;
   }
 }
@@ -124,11 +132,11 @@ class CellAnswer {
   Eight<T> w_[21] = {};
 };
 
-template <class T, bool Rings>
+template <class T, CellKind Kind>
 void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>* nodes, const SoilMask<T>* mask) {
   const Eight<T> x = load(places.mean[0]), y = load(places.mean[1]), z = load(places.mean[2]);
   const Eight<T> xy = load(places.mean[3]), xz = load(places.mean[4]), yz = load(places.mean[5]), none{};
-  const bool plane = places.inverse_cell[1] == T(0);
+  constexpr bool plane = Kind != CellKind::space;
   const T r2 = static_cast<T>(kRoot2), r3 = static_cast<T>(kRoot3), r6 = static_cast<T>(kRoot6);
   CellAnswer<T> answer;
   for (int e = 0; e < kCellNodes; ++e) {
@@ -148,7 +156,7 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
     const T* h = places.inverse_cell;
     const Eight<T> gx = s[0] * h[0] * (a[1] * a[2] + (a[2] * s[1]) * y + (a[1] * s[2]) * z + (s[1] * s[2]) * yz);
     Eight<T> gy = s[1] * h[1] * (a[0] * a[2] + (a[2] * s[0]) * x + (a[0] * s[2]) * z + (s[0] * s[2]) * xz);
-    if constexpr (Rings) {
+    if constexpr (Kind == CellKind::rings) {
       gy = (a[0] * a[2]) * load(places.over_radius[0]) + (a[2] * s[0]) * load(places.over_radius[1]) +
            (a[0] * s[2]) * load(places.over_radius[2]) + (s[0] * s[2]) * load(places.over_radius[3]);
     }
@@ -159,7 +167,7 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
     Eight<T> im;
     for (int l = 0; l < kGroupCells; ++l) im[l] = nodes[group.node[e][l]].inverse_mass;
     const auto free = [&](int axis) { return mask != nullptr ? im * load(mask->free[axis][e]) : im; };
-    if constexpr (Rings) {
+    if constexpr (Kind == CellKind::rings) {
       answer.add({r3 * (gx + gy), r2 * (gx - gy), -r6 * (gx + gy), none, r2 * gz, none}, free(0));
       answer.add({r3 * gz, none, (r6 + r6) * gz, none, r2 * gx, none}, free(2));
     } else {
@@ -265,10 +273,10 @@ void project(SoilGroup<T>& group) {
   for (int k = 0; k < 6; ++k) store(group.stress[k], r[k]);
 }
 
-template <class T, bool Rings>
+template <class T, CellKind Kind>
 inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const SoilMask<T>* masks, SoilNode<T>* nodes,
                                                  Eight<T>& size, Eight<T>& change) {
-  GroupNodes<T, Rings> corners(group, nodes);
+  GroupNodes<T, Kind> corners(group, nodes);
   Eight<T> b[6], r[6];
   rate(group, corners, b);
   const Eight<T> weight_n = load(group.weight_n), weight_t = load(group.weight_t);
@@ -289,11 +297,11 @@ inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const Soil
   find_surface(group, b, bt);
 }
 
-template <class T, bool Rings>
+template <class T, CellKind Kind>
 void push(const SoilBlock<T>& block, SoilNode<T>* nodes) {
   for (int i = 0; i < block.group_count; ++i) {
     const SoilGroup<T>& group = block.groups[i];
-    GroupNodes<T, Rings> corners(group, nodes);
+    GroupNodes<T, Kind> corners(group, nodes);
     Eight<T> r[6];
     for (int k = 0; k < 6; ++k) r[k] = load(group.stress[k]);
     spread(group, block.masks, r, corners);
@@ -301,12 +309,12 @@ void push(const SoilBlock<T>& block, SoilNode<T>* nodes) {
   }
 }
 
-template <class T, bool Rings>
+template <class T, CellKind Kind>
 mpm_kernel::SweepChange sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, bool backwards) {
   Eight<T> size{}, change{};
   for (int i = 0; i < block.group_count; ++i) {
     SoilGroup<T>& group = block.groups[backwards ? block.group_count - 1 - i : i];
-    relax<T, Rings>(group, block.masks, nodes, size, change);
+    relax<T, Kind>(group, block.masks, nodes, size, change);
   }
   mpm_kernel::SweepChange sum{0.0, 0.0};
   for (int l = 0; l < kGroupCells; ++l) {
@@ -316,9 +324,34 @@ mpm_kernel::SweepChange sweep(const SoilBlock<T>& block, SoilNode<T>* nodes, boo
   return sum;
 }
 
-template <class T, bool Rings>
+/// `now` goes on by `factor` times its change, and `before` becomes what it was: so many numbers, a multiple of Of.
+template <class Of, class T>
+inline __attribute__((always_inline)) void go_on(T* now, T* before, int count, T factor) {
+  constexpr int kWidth = sizeof(Of) / sizeof(T);
+  for (int i = 0; i < count; i += kWidth) {
+    Of& value = *reinterpret_cast<Of*>(now + i);
+    Of& last = *reinterpret_cast<Of*>(before + i);
+    const Of was = value;
+    if (factor != T(0)) value += factor * (was - last);
+    last = was;
+  }
+}
+
+template <class T>
+void extrapolate(const SoilBlock<T>& block, SoilNode<T>* nodes, SoilNode<T>* before, int count, T factor) {
+  for (int i = 0; i < block.group_count; ++i) {
+    SoilGroup<T>& group = block.groups[i];
+    go_on<Eight<T>>(group.stress[0], group.before[0], 6 * kGroupCells, factor);
+  }
+  // With the inverse masses, which do not change. A block has a multiple of two nodes.
+  go_on<Eight<T>>(nodes->v, before->v, 4 * count, factor);
+  for (int i = 0; i < block.row_count; ++i) go_on<T>(block.rows[i].impulse, block.rows[i].before, 3, factor);
+  for (int i = 0; i < block.wall_count; ++i) go_on<T>(block.walls[i].impulse, block.walls[i].before, 3, factor);
+}
+
+template <class T, CellKind Kind>
 void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out) {
-  const GroupNodes<T, Rings> corners(group, nodes);
+  const GroupNodes<T, Kind> corners(group, nodes);
   Eight<T> e[6], plastic[6], shear{};
   rate(group, corners, e);
   const Eight<T> compliance_n = load(group.compliance_n), compliance_t = load(group.compliance_t);
@@ -334,26 +367,27 @@ void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out)
     for (int k = 0; k < 3; ++k) {
       Eight<T> sum{};
       for (int n = 0; n < corners.kCount; ++n) {
-        if (Rings && (a == 1) != (k == 1)) break;
+        if (Kind == CellKind::rings && (a == 1) != (k == 1)) break;
         const Corners<T>& v = corners.of[n];
-        sum += load(group.gradient[k][n]) * (a == 0 || (Rings && a == 1) ? v.x : a == 1 ? v.y : v.z);
+        sum += load(group.gradient[k][n]) * (a == 0 || (Kind == CellKind::rings && a == 1) ? v.x : a == 1 ? v.y : v.z);
       }
       store(out.gradient[3 * a + k], sum);
     }
   }
 }
 
-template <class T, bool Rings>
+template <class T, CellKind Kind>
 mpm_kernel::SweepTable<T> table() {
-  return {&prepare<T, Rings>, &project<T>,       &push<T, Rings>, &sweep<T, Rings>,
-          &meet_contacts<T>,  &touch_contact<T>, &flow<T, Rings>, {soil_passes<T>(2, Rings), soil_passes<T>(3, false)}};
+  return {&prepare<T, Kind>, &project<T>,       &push<T, Kind>, &sweep<T, Kind>,     &extrapolate<T>,
+          &meet_contacts<T>, &touch_contact<T>, &flow<T, Kind>, soil_passes<T>(Kind)};
 }
 
 }  // namespace
 
 const mpm_kernel::SweepFamily& soil_sweeps() {
-  static const mpm_kernel::SweepFamily kFamily{{table<double, false>(), table<double, true>()},
-                                               {table<float, false>(), table<float, true>()}};
+  static const mpm_kernel::SweepFamily kFamily{
+      {table<double, CellKind::space>(), table<double, CellKind::plane>(), table<double, CellKind::rings>()},
+      {table<float, CellKind::space>(), table<float, CellKind::plane>(), table<float, CellKind::rings>()}};
   return kFamily;
 }
 

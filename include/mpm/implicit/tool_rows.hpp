@@ -122,6 +122,14 @@ class ToolRows {
   };
   /// Width of what lies at `at` across the x-z plane: the thickness, or a turn [m]; in space 1.
   double across(const Vec3& at) const;
+  /// Finds the cell of a point, its nodes and their weights. Returns whether there is soil enough for contact.
+  bool find_soil(const Vec3& at, const std::vector<Node>& nodes, Row& row, Place& place) const;
+  /// Fills the row's weights and the velocity that held nodes prescribe. Returns by how much an impulse along each axis
+  /// changes the velocity at the point [1/kg].
+  Vec3 bind_nodes(const std::vector<Node>& nodes, Row& row, Place& place) const;
+  /// The impulse of the last step, less where nodes have become lighter; `own`: Row::own.
+  Vec3 first_impulse(int body, int sample, const Vec3& normal, const FrictionLaw& law, double own, double dt) const;
+  /// Makes the row of a point. Returns false where there is none.
   bool make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt, Row& row,
             Place& place) const;
 

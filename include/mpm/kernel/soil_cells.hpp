@@ -30,6 +30,8 @@ namespace mpm_kernel {
 
 constexpr int kCellNodes = 8;
 constexpr int kGroupCells = 8;
+/// 1 / sqrt(2), 1 / sqrt(3), 1 / sqrt(6): of the map from tensors.
+constexpr double kOverRoot2 = 0.70710678118654752, kOverRoot3 = 0.57735026918962576, kOverRoot6 = 0.40824829046386302;
 
 /// A node as sweeps see it.
 template <class T>
@@ -69,7 +71,7 @@ struct SoilPlaces {
   T over_radius[4][kGroupCells];  ///< about an axis, means of 1, x, z and xz over the radius [1/m]
 };
 
-/// Where walls hold nodes of a group: 0 for the components of velocity that they hold, else 1.
+/// Where nodes of a group are held, by walls, conditions or what is asleep: 0 for such components of velocity, else 1.
 template <class T>
 struct SoilMask {
   T free[3][kCellNodes][kGroupCells];
@@ -87,7 +89,7 @@ struct SoilFlow {
 /// A point of a rigid body at which contact acts on the nodes around it.
 template <class T>
 struct alignas(4 * sizeof(T)) ContactRow {
-  T weight[kCellNodes][4];  ///< of a node along each axis, 0 where a wall holds it; and 0
+  T weight[kCellNodes][4];  ///< of a node along each axis, 0 where it is held; and 0
   T own;                    ///< change of the velocity at the point by an impulse there, of the axes the most [1/kg]
   T friction;               ///< coefficient; negative: no sliding while it presses
   T normal[3];              ///< out of the body
@@ -103,7 +105,7 @@ struct WallRow {
   int node;
   int axis;      ///< across the wall
   T out;         ///< 1 where the material lies towards higher numbers, else -1
-  T free[3];     ///< 1 along axes on which no other wall holds the node, else 0
+  T free[3];     ///< 1 along axes on which nothing else holds the node, else 0
   T friction;    ///< coefficient; negative: no sliding
   T impulse[3];  ///< [N s]
   T before[3];   ///< impulse as extrapolate() found it last [N s]

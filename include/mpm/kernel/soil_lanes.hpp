@@ -10,9 +10,6 @@
 
 namespace mpm {
 
-/// 1 / sqrt(2), 1 / sqrt(3), 1 / sqrt(6): of the map from tensors.
-constexpr double kRoot2 = 0.70710678118654752, kRoot3 = 0.57735026918962576, kRoot6 = 0.40824829046386302;
-
 template <class T>
 struct Lanes {
   typedef T Eight __attribute__((vector_size(8 * sizeof(T)), aligned(sizeof(T)), may_alias));

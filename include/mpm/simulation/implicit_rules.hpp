@@ -1,5 +1,5 @@
-// What implicit steps go together with: the one table of these rules. They are checked when a Simulation is put
-// together.
+// What implicit steps go together with. Asked when a scene is read, when a Simulation is put together (which refuses
+// several ranks, too), and by the choice of the method.
 #pragma once
 
 #include <optional>

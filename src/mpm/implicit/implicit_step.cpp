@@ -14,12 +14,12 @@
 namespace mpm {
 namespace {
 
-constexpr double kStiffer = 240.0;  ///< modulus that sweeps resolve over the mean pressure on tools
-constexpr double kOwn = 4.0;        ///< the same over the soil's own modulus, more than which is of no use
-constexpr double kSettled = 2e-3;   ///< change of all stresses in a sweep, over the stresses
+constexpr double kStiffer = 240;   ///< modulus that sweeps resolve over the mean pressure on tools
+constexpr double kOwn = 4.0;       ///< the same over the soil's own modulus, more than which is of no use
+constexpr double kSettled = 3e-3;  ///< change of all stresses in a sweep, over the stresses
 // Change of the forces on tools in the second half of the sweeps: over the forces, and over what the step has changed
 // them by, since of a force that grows slowly an error in each step adds up.
-constexpr double kForceError = 0.02, kLeastForceError = 0.003, kOfGain = 0.25;
+constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
 constexpr double kHeld = 10.0;      ///< pressure on a tool over rho (h / dt)^2, at the most
 constexpr int kWholeSweeps = 2;     ///< that take all blocks, whether they need it or not
 constexpr double kQuiet = 0.1;      ///< of a block's share of what is left to settle: of less it is not swept again

@@ -11,13 +11,15 @@
 namespace mpm {
 namespace {
 
-constexpr double kRoot2 = 0.70710678118654752, kRoot3 = 0.57735026918962576, kRoot6 = 0.40824829046386302;
+using mpm_kernel::kOverRoot2;
+using mpm_kernel::kOverRoot3;
+using mpm_kernel::kOverRoot6;
 constexpr double kGivenBack = 0.2;  ///< part of it that soil which is too dense gives back in a step
 
 /// The stress, tension positive, that is mapped to r.
 Symmetric3<double> tensor_of(const double* r) {
-  const double p = kRoot3 * r[0], q = kRoot6 * r[2], d = kRoot2 * r[1];
-  return {-(p + d - q), -(p - d - q), -(p + 2.0 * q), -kRoot2 * r[3], -kRoot2 * r[4], -kRoot2 * r[5]};
+  const double p = kOverRoot3 * r[0], q = kOverRoot6 * r[2], d = kOverRoot2 * r[1];
+  return {-(p + d - q), -(p - d - q), -(p + 2.0 * q), -kOverRoot2 * r[3], -kOverRoot2 * r[4], -kOverRoot2 * r[5]};
 }
 
 /// The cells of a block, those whose numbers along each axis are odd or even alike after each other.
@@ -275,7 +277,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
   group.dilates[lane] = static_cast<T>(per_volume * sums.dilates);
   group.least[lane] = static_cast<T>(soil.least);
   group.lode[lane] = soil.follows_lode ? T(1) : T(0);
-  group.closing[lane] = static_cast<T>(kRoot3 * (opening > 0.0 ? opening : kGivenBack * opening) / dt);
+  group.closing[lane] = static_cast<T>(kOverRoot3 * (opening > 0.0 ? opening : kGivenBack * opening) / dt);
   for (int i = 0; i < 6; ++i) {
     const double r = grid_.rings() && i == 3 ? 0.0 : per_volume * sums.stress[i];
     group.stress[i][lane] = static_cast<T>(r);

@@ -78,6 +78,9 @@ void SoilGrid::find_held() {
     for (int face = 0; face < 2 * layout.dim(); ++face) {
       const int k = face / 2, axis = layout.axis(k), wall = 2 * axis + face % 2;
       if (!is_wall(walls_[wall].kind)) continue;
+      const int first = kBlockEdge * grid_.blocks.block(b)[k];
+      const bool reaches = face % 2 == 1 ? first + kBlockEdge > layout.last_node(k) : first <= 0;
+      if (!reaches) continue;
       for (int n = 0; n < per_block; ++n) {
         const int at = layout.node(grid_.blocks.block(b), n)[k];
         const int beyond = face % 2 == 1 ? at - layout.last_node(k) : -at;

@@ -19,8 +19,6 @@ constexpr double kAnswers = 1e-6;  ///< of a row's largest answer to an impulse,
 
 constexpr int kRoomForHeld = 4;  ///< parts of a point's impulse that walls take, of all points in the mean
 
-double at_least_zero(double value) { return std::max(value, 0.0); }
-
 template <class T>
 Vec3 vector_of(const T (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -109,13 +107,9 @@ double ToolRows<T>::across(const Vec3& at) const {
 }
 
 template <class T>
-bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt,
-                       Row& row, Place& place) const {
-  const SurfaceSample& point = samples_[body][sample];
-  const RigidBody& of = *bodies_[body];
+bool ToolRows<T>::find_soil(const Vec3& at, const std::vector<Node>& nodes, Row& row, Place& place) const {
   const GridLayout& layout = grid_.grid().layout;
   const int dim = layout.dim(), corners = 1 << dim;
-  const Vec3 at = of.pose().position + of.pose().orientation * point.place;
   std::array<int, 3> cell{}, local{};
   double part[3] = {}, volume = across(at);
   for (int k = 0; k < dim; ++k) {
@@ -124,66 +118,82 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
     part[k] = in_cells - cell[k];
     volume *= layout.cell(k);
   }
-  int block = 0;
-  if (!grid_.find(cell, block, local)) return false;
+  if (!grid_.find(cell, place.block, local)) return false;
   // Nodes without material do not count: what is left of the weights sums to one.
-  double weights[mpm_kernel::kCellNodes] = {}, carrying = 0.0, mass = 0.0;
+  double carrying = 0.0, mass = 0.0;
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
-    row.node[e] = e < corners ? grid_.corner(block, local, e) : grid_.no_node(block);
+    row.node[e] = e < corners ? grid_.corner(place.block, local, e) : grid_.no_node(place.block);
     const double im = static_cast<double>(nodes[row.node[e]].inverse_mass);
+    double& weight = place.weight[e] = 0.0;
     if (!(im > 0.0)) continue;
-    weights[e] = 1.0;
-    for (int k = 0; k < dim; ++k) weights[e] *= (e >> k & 1) != 0 ? part[k] : 1.0 - part[k];
-    carrying += weights[e];
-    mass += weights[e] / im;
+    weight = 1.0;
+    for (int k = 0; k < dim; ++k) weight *= (e >> k & 1) != 0 ? part[k] : 1.0 - part[k];
+    carrying += weight;
+    mass += weight / im;
   }
-  if (!(mass > kPresent * settings_.least_density * volume)) return false;
-  Vec3 own = Vec3::Zero();  // along the axes of the grid; the others do not move
+  for (double& weight : place.weight) weight /= carrying;
+  return mass > kPresent * settings_.least_density * volume;
+}
+
+template <class T>
+Vec3 ToolRows<T>::bind_nodes(const std::vector<Node>& nodes, Row& row, Place& place) const {
+  const GridLayout& layout = grid_.grid().layout;
+  Vec3 own = Vec3::Zero();
   place.prescribed.setZero();
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
-    const double weight = weights[e] / carrying;
-    place.weight[e] = weight;
-    row.weight[e][3] = T(0);
-    for (int k = 0; k < 3; ++k) row.weight[e][k] = T(0);
-    for (int k = 0; k < dim; ++k) {
+    const Node& node = nodes[row.node[e]];
+    const double weight = place.weight[e];
+    std::fill_n(row.weight[e], 4, T(0));
+    for (int k = 0; k < layout.dim(); ++k) {
       const int a = layout.axis(k);
-      const bool held = grid_.holder(row.node[e], a) != SoilGrid::kFree;
-      row.weight[e][a] = held ? T(0) : static_cast<T>(weight);
-      if (held) {
-        place.prescribed[a] += weight * static_cast<double>(nodes[row.node[e]].v[a]);
+      if (grid_.holder(row.node[e], a) != SoilGrid::kFree) {
+        place.prescribed[a] += weight * static_cast<double>(node.v[a]);
       } else {
-        own[a] += weight * weight * static_cast<double>(nodes[row.node[e]].inverse_mass);
+        row.weight[e][a] = static_cast<T>(weight);
+        own[a] += weight * weight * static_cast<double>(node.inverse_mass);
       }
     }
   }
-  const Vec3 normal = of.pose().orientation * point.normal;
+  return own;
+}
+
+template <class T>
+Vec3 ToolRows<T>::first_impulse(int body, int sample, const Vec3& normal, const FrictionLaw& law, double own,
+                                double dt) const {
+  const Kept& kept = kept_[body];
+  const double ratio = std::min(1.0, kept.own[sample] / own);
+  const Vec3 force(kept.force[3 * sample], kept.force[3 * sample + 1], kept.force[3 * sample + 2]);
+  const Vec3 impulse = ratio * ratio * dt * force;
+  const double along_normal = impulse.dot(normal);
+  if (!(along_normal > 0.0)) return Vec3::Zero();
+  return !law.stick && law.coefficient == 0.0 ? Vec3(along_normal * normal) : impulse;
+}
+
+template <class T>
+bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, const FrictionLaw& law, double dt,
+                       Row& row, Place& place) const {
+  const SurfaceSample& point = samples_[body][sample];
+  const RigidBody& of = *bodies_[body];
+  place.body = body;
+  place.sample = sample;
+  place.at = of.pose().position + of.pose().orientation * point.place;
+  place.area = point.area * across(place.at);
+  if (!find_soil(place.at, nodes, row, place)) return false;
+  const Vec3 own = bind_nodes(nodes, row, place), normal = of.pose().orientation * point.normal;
   const FreeMotion* motion = of.free_motion();
-  const Mat3 compliance = motion != nullptr ? motion->compliance_at(at) : Mat3(Mat3::Zero());
+  const Mat3 compliance = motion != nullptr ? motion->compliance_at(place.at) : Mat3(Mat3::Zero());
   const double most = own.maxCoeff() + compliance.cwiseAbs().rowwise().sum().maxCoeff();
   // Where nothing that is free along the normal answers, an impulse would grow without end.
-  const double answer = normal.cwiseAbs2().dot(own) + normal.dot(compliance * normal);
-  if (!(answer > kAnswers * most)) return false;
+  if (!(normal.cwiseAbs2().dot(own) + normal.dot(compliance * normal) > kAnswers * most)) return false;
   row.own = static_cast<T>(most);
   row.friction = law.stick ? T(-1) : static_cast<T>(law.coefficient);
-  const Vec3 velocity = motion != nullptr ? motion->velocity_at(at) : of.velocity_at(at);
+  const Vec3 velocity = motion != nullptr ? motion->velocity_at(place.at) : of.velocity_at(place.at);
+  const Vec3 begins = first_impulse(body, sample, normal, law, most, dt);
   for (int a = 0; a < 3; ++a) {
     row.normal[a] = static_cast<T>(normal[a]);
     row.velocity[a] = static_cast<T>(velocity[a] - place.prescribed[a]);
+    row.impulse[a] = static_cast<T>(begins[a]);
   }
-  place.body = body;
-  place.sample = sample;
-  place.block = block;
-  place.at = at;
-  place.area = point.area * across(at);
-  const Kept& kept = kept_[body];
-  const double ratio = std::min(1.0, kept.own[sample] / most);
-  Vec3 impulse(kept.force[3 * sample], kept.force[3 * sample + 1], kept.force[3 * sample + 2]);
-  impulse *= ratio * ratio * dt;
-  const double along_normal = impulse.dot(normal);
-  Vec3 along = impulse - along_normal * normal;
-  if (!law.stick && law.coefficient == 0.0) along.setZero();
-  const Vec3 begins = at_least_zero(along_normal) * normal + (along_normal > 0.0 ? along : Vec3(Vec3::Zero()));
-  for (int a = 0; a < 3; ++a) row.impulse[a] = static_cast<T>(begins[a]);
   return true;
 }
 

@@ -15,6 +15,9 @@
 namespace mpm {
 namespace {
 
+using mpm_kernel::kOverRoot2;
+using mpm_kernel::kOverRoot3;
+using mpm_kernel::kOverRoot6;
 using mpm_kernel::SoilMotion;
 using mpm_kernel::SoilParticles;
 using mpm_kernel::SoilPlacesOf;
@@ -213,14 +216,14 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
       const auto tau = full(Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p));
       const W mass = set.masses != nullptr ? W::load_first(set.masses + p, lanes) : W(set.mass);
       const W scale = -(W(set.density) / j);  // compression is positive
-      const W xx = scale * tau.xx, yy = scale * tau.yy, zz = scale * tau.zz, shear = scale * W(1.0 / kRoot2);
+      const W xx = scale * tau.xx, yy = scale * tau.yy, zz = scale * tau.zz, shear = scale * W(1.0 / kOverRoot2);
       const W opening = W::load_first(set.opening + p, lanes);
       const W left = max(W(1.0) - W(set.per_strain) * W::load_first(set.strain + p, lanes), W(0.0));
       const W dilates = left * max(min(W(set.dilation_start) - W(set.dilation_slope) * j, W(1.0)), W(0.0));
       (mass * W(1.0 / set.density) * j).store(numbers[0] + q);
-      (W(kRoot3) * (xx + yy + zz)).store(numbers[1] + q);
-      (W(kRoot2) * (xx - yy)).store(numbers[2] + q);
-      (W(kRoot6) * (zz + zz - xx - yy)).store(numbers[3] + q);
+      (W(kOverRoot3) * (xx + yy + zz)).store(numbers[1] + q);
+      (W(kOverRoot2) * (xx - yy)).store(numbers[2] + q);
+      (W(kOverRoot6) * (zz + zz - xx - yy)).store(numbers[3] + q);
       (kHoop ? W(1.0) : shear * tau.yz).store(numbers[4] + q);
       (shear * tau.xz).store(numbers[5] + q);
       (shear * tau.xy).store(numbers[6] + q);
@@ -298,9 +301,13 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
       for (int k = 0; k < 3; ++k) {
         if (kThree || k != 1) l[k][k] -= excess;
       }
-      const W r0 = W(kRoot3) * number(9), r1 = W(kRoot2) * number(10), r2 = W(kRoot6) * number(11);
-      const Symmetric3<W> cauchy{-(r0 + r1 - r2),         -(r0 - r1 - r2),         -(r0 + r2 + r2),
-                                 W(-kRoot2) * number(12), W(-kRoot2) * number(13), W(-kRoot2) * number(14)};
+      const W r0 = W(kOverRoot3) * number(9), r1 = W(kOverRoot2) * number(10), r2 = W(kOverRoot6) * number(11);
+      const Symmetric3<W> cauchy{-(r0 + r1 - r2),
+                                 -(r0 - r1 - r2),
+                                 -(r0 + r2 + r2),
+                                 W(-kOverRoot2) * number(12),
+                                 W(-kOverRoot2) * number(13),
+                                 W(-kOverRoot2) * number(14)};
       const auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
       const auto tau_old = Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p);
       const W j_old = determinant(old);
@@ -313,11 +320,11 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
         return W(set.density) / volume * (mean * mean * W(0.5 / set.bulk) + deviator * W(0.25 / set.shear));
       };
       const W work = W(dt / set.density) * number(17) * j_old - (stored(tau, j) - stored(tau_old, j_old));
-      const W opening = W::load_first(set.opening + p, lanes) + W(dt / kRoot3) * number(15);
+      const W opening = W::load_first(set.opening + p, lanes) + W(dt / kOverRoot3) * number(15);
       Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
       Geometry::store_symmetric(tau, WideWriter<T>{set.tau, lanes}, p);
       max(opening, W(-kDensest)).store_first(set.opening + p, lanes);
-      (W::load_first(set.strain + p, lanes) + W(dt / kRoot2) * number(16)).store_first(set.strain + p, lanes);
+      (W::load_first(set.strain + p, lanes) + W(dt / kOverRoot2) * number(16)).store_first(set.strain + p, lanes);
       (W::load_first(set.work + p, lanes) + work).store_first(set.work + p, lanes);
     }
   }

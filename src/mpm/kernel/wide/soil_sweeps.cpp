@@ -21,6 +21,9 @@ namespace {
 using mpm_kernel::CellKind;
 using mpm_kernel::kCellNodes;
 using mpm_kernel::kGroupCells;
+using mpm_kernel::kOverRoot2;
+using mpm_kernel::kOverRoot3;
+using mpm_kernel::kOverRoot6;
 using mpm_kernel::SoilBlock;
 using mpm_kernel::SoilFlow;
 using mpm_kernel::SoilGroup;
@@ -51,12 +54,12 @@ inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const
   Eight<T> whole[6];
   for (int i = 0; i < 6; ++i) whole[i] = part[0][i] + part[1][i];
   const auto& [xx, yy, zz, yz, xz, xy] = whole;
-  e[0] = static_cast<T>(kRoot3) * (xx + yy + zz);
-  e[1] = static_cast<T>(kRoot2) * (xx - yy);
-  e[2] = static_cast<T>(kRoot6) * (zz + zz - xx - yy);
-  e[3] = static_cast<T>(kRoot2) * yz;
-  e[4] = static_cast<T>(kRoot2) * xz;
-  e[5] = static_cast<T>(kRoot2) * xy;
+  e[0] = static_cast<T>(kOverRoot3) * (xx + yy + zz);
+  e[1] = static_cast<T>(kOverRoot2) * (xx - yy);
+  e[2] = static_cast<T>(kOverRoot6) * (zz + zz - xx - yy);
+  e[3] = static_cast<T>(kOverRoot2) * yz;
+  e[4] = static_cast<T>(kOverRoot2) * xz;
+  e[5] = static_cast<T>(kOverRoot2) * xy;
 }
 
 /// What changes `d` of the stresses do to the velocities of the nodes.
@@ -64,10 +67,10 @@ template <class T, CellKind Kind>
 inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks,
                                                   const Eight<T> (&d)[6], GroupNodes<T, Kind>& nodes) {
   const Eight<T> f = load(group.push);
-  const Eight<T> p = static_cast<T>(kRoot3) * d[0], q = static_cast<T>(kRoot6) * d[2],
-                 h = static_cast<T>(kRoot2) * d[1];
+  const Eight<T> p = static_cast<T>(kOverRoot3) * d[0], q = static_cast<T>(kOverRoot6) * d[2],
+                 h = static_cast<T>(kOverRoot2) * d[1];
   const Eight<T> sx = f * (p + h - q), sy = f * (p - h - q), sz = f * (p + q + q);
-  const Eight<T> g = f * static_cast<T>(kRoot2), yz = g * d[3], xz = g * d[4], xy = g * d[5];
+  const Eight<T> g = f * static_cast<T>(kOverRoot2), yz = g * d[3], xz = g * d[4], xy = g * d[5];
   for (int n = 0; n < nodes.kCount; ++n) {
     const Eight<T> bx = load(group.gradient[0][n]), by = load(group.gradient[1][n]), bz = load(group.gradient[2][n]);
     Corners<T>& v = nodes.of[n];
@@ -137,7 +140,7 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
   const Eight<T> x = load(places.mean[0]), y = load(places.mean[1]), z = load(places.mean[2]);
   const Eight<T> xy = load(places.mean[3]), xz = load(places.mean[4]), yz = load(places.mean[5]), none{};
   constexpr bool plane = Kind != CellKind::space;
-  const T r2 = static_cast<T>(kRoot2), r3 = static_cast<T>(kRoot3), r6 = static_cast<T>(kRoot6);
+  const T r2 = static_cast<T>(kOverRoot2), r3 = static_cast<T>(kOverRoot3), r6 = static_cast<T>(kOverRoot6);
   CellAnswer<T> answer;
   for (int e = 0; e < kCellNodes; ++e) {
     if (plane && e >= kCellNodes / 2) {
@@ -191,9 +194,9 @@ struct Extremes {
   Eight<T> difference, sum;
 
   Extremes(const Eight<T> (&b)[6], Eight<T> bt) {
-    const Eight<T> over = static_cast<T>(1) / (largest<T>(bt, all<T>(kStill<T>)) * static_cast<T>(kRoot2));
-    const Eight<T> d = static_cast<T>(kRoot2) * b[1] * over, q = static_cast<T>(kRoot6) * b[2] * over;
-    const Eight<T> xx = d - q, yy = -d - q, zz = q + q, g = static_cast<T>(kRoot2) * over;
+    const Eight<T> over = static_cast<T>(1) / (largest<T>(bt, all<T>(kStill<T>)) * static_cast<T>(kOverRoot2));
+    const Eight<T> d = static_cast<T>(kOverRoot2) * b[1] * over, q = static_cast<T>(kOverRoot6) * b[2] * over;
+    const Eight<T> xx = d - q, yy = -d - q, zz = q + q, g = static_cast<T>(kOverRoot2) * over;
     const Eight<T> yz = g * b[3], xz = g * b[4], xy = g * b[5];  // tension positive, as b itself
     const Eight<T> j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
     // cos(3 a) of the Lode angle a in [0, 60 degrees]; cos(a) = cos(2/3 acos(t)) with t = cos(3 a / 2), a polynomial to
@@ -223,7 +226,7 @@ inline __attribute__((always_inline)) void find_surface(SoilGroup<T>& group, con
   const Eight<T> lode = load(group.lode), sine = load(group.sine), dilation = load(group.dilation);
   const Eight<T> factor = static_cast<T>(1.4142135623730951) * extremes.per_shear(sine, lode);
   store(group.strength, factor * load(group.cohesion));
-  store(group.slope, static_cast<T>(kRoot3) * factor * sine);
+  store(group.slope, static_cast<T>(kOverRoot3) * factor * sine);
   store(group.theta,
         static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, lode));
 }

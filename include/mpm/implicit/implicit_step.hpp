@@ -10,12 +10,12 @@
 // and each cell is to fulfil its law with its rate of strain B v less the elastic part, contacts theirs
 // (kernel/soil_cells.hpp). Blocks are swept in the order of their colours, the cells of a block in a fixed order, to
 // and fro, then its contacts: Gauss-Seidel. Stresses and impulses of the step before begin it; it is by this that few
-// sweeps suffice. A sweep brings stress as an elastic soil of modulus rho (h / dt)^2 would: n of them resolve loads
-// well below n rho (h / dt)^2, and of softer soil than that the own modulus. The same bits for any number of threads.
+// sweeps suffice. A sweep brings stress as an elastic soil of modulus rho (h / dt)^2 would, and with momentum n of them
+// as one of up to ten times n of that (sweep_momentum.hpp). The same bits for any number of threads.
 //
-// Weak: no waves, no rebound: an impact is plastic. Soil is soft before it fails, as above. Volume is lost where soil
-// falls and few sweeps are made. The place of a tool's edge within a cell shows (tool_rows.hpp). Source: G. Daviet, F.
-// Bertails-Descoubes (2016), ACM Trans. Graph. 35(4) 102; doc/implicit.md has what it is worth.
+// Weak: no waves, no rebound: an impact is plastic. Under loads near that modulus soil is soft before it fails. Volume
+// is lost where soil falls and few sweeps are made. The place of a tool's edge within a cell shows (tool_rows.hpp).
+// Source: G. Daviet, F. Bertails-Descoubes (2016), ACM Trans. Graph. 35(4) 102; doc/implicit.md has what it is worth.
 #pragma once
 
 #include <memory>

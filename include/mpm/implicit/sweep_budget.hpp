@@ -7,8 +7,9 @@
 // there on alone; least() says how long that takes.
 //
 // The error that this leaves in the force is estimated by how much it changed in the last half of the sweeps. This
-// change tells less than the error, since a step begins with the impulses of the step before, which were cut, too: the
-// error was found to be 2.4 times the change with one sweep a millisecond, and less with more of them (doc/loop.md).
+// change tells less than the error where sweeps are few, since a step begins with the impulses of the step before,
+// which were cut, too: below 0.9 sweeps a millisecond the error was found to be the more times the change
+// (doc/loop.md).
 //
 // Steps that were cut so, and their sweeps, are all that a run owes to the clock: a run that is given them by repeat()
 // makes the same bits, and asks no clock.

@@ -20,7 +20,7 @@ constexpr double kSettled = 3e-3;  ///< change of all stresses in a sweep, over 
 // Change of the forces on tools in the second half of the sweeps: over the forces, and over what the step has changed
 // them by, since of a force that grows slowly an error in each step adds up.
 constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
-constexpr double kHeld = 6.0;      ///< pressure on a tool over rho (h / dt)^2, at the most
+constexpr double kHeld = 6.0;       ///< pressure on a tool over rho (h / dt)^2, at the most
 constexpr int kWholeSweeps = 2;     ///< that take all blocks, whether they need it or not
 constexpr double kQuiet = 0.1;      ///< of a block's share of what is left to settle: of less it is not swept again
 constexpr double kKept = 0.9;       ///< of the sweeps of the step before, at the least
@@ -62,7 +62,9 @@ class ImplicitStep final : public Stage, public ContactReporter {
     own.by = this;
     own.part = static_cast<int>(sets_.size()) + pressed.body;
     own.speed = pressed.mean;
-    own.dt = period.cell * std::sqrt(kHeld * cells_.least_density() / pressed.mean);
+    // Of a sliver the mean may be more than soil can bear.
+    const double most = std::min(pressed.mean, kOwn * cells_.modulus());
+    own.dt = period.cell * std::sqrt(kHeld * cells_.least_density() / most);
     limit.tighten(own);
   }
   std::string limit_text(const StepLimit& limit) const override {
@@ -216,6 +218,14 @@ class ImplicitStep final : public Stage, public ContactReporter {
     tools_.meet_free(table_, nodes_);
   }
 
+  /// Of the blocks that need it.
+  void sweep(bool backwards) {
+    soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
+      if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
+    });
+    meet();
+  }
+
   void solve(double start, double dt) {
     least_ = sweeps_needed(dt);
     const int most = settings_.sweeps.value_or(kMostSweeps);
@@ -224,21 +234,23 @@ class ImplicitStep final : public Stage, public ContactReporter {
     changes_.assign(grid_.blocks.size(), {0.0, 0.0});
     stirred_.assign(grid_.blocks.size(), 1);
     mpm_kernel::SweepChange sum{0.0, 0.0};  // of the last sweep
-    bool settled = false;
+    bool settled = false, cut = false;
     restart_.begin();
     pressed_.clear();
     pressed_.push_back(tools_.pressed());
     SweepBudget* budget = settings_.budget;
     if (budget != nullptr) budget->begin_sweeps(start, dt);
     for (sweeps_ = 0; sweeps_ < least_ || (sweeps_ < most && !settled);) {
-      if (budget != nullptr && budget->ends_after(sweeps_)) break;
+      cut = budget != nullptr && budget->ends_after(sweeps_);
+      if (cut) break;
       const bool backwards = sweeps_ % 2 == 1;
       if (!backwards) go_on(restart_.factor(sum.change));
-      if (sweeps_ >= kWholeSweeps) find_stirred(kQuiet * std::min(kSettled * kSettled * sum.size, sum.change));
-      soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
-        if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
-      });
-      meet();
+      if (sweeps_ + 1 == most) {
+        stirred_.assign(stirred_.size(), 1);
+      } else if (sweeps_ >= kWholeSweeps) {
+        find_stirred(kQuiet * std::min(kSettled * kSettled * sum.size, sum.change));
+      }
+      sweep(backwards);
       ++sweeps_;
       const double now = tools_.pressed();
       pressed_.push_back(now);
@@ -251,6 +263,13 @@ class ImplicitStep final : public Stage, public ContactReporter {
       const double gained = now > 0.0 ? std::abs(now - pressed_.front()) / now : 0.0;
       const double allowed = std::clamp(kOfGain * gained, kLeastForceError, kForceError);
       settled = sum.change <= kSettled * kSettled * sum.size && change_ <= allowed;
+    }
+    if (!cut && sweeps_ < most &&
+        !(budget != nullptr &&
+          budget->ends_after(sweeps_))) {  // blocks that were left out have gone on with the others
+      stirred_.assign(stirred_.size(), 1);
+      sweep(sweeps_ % 2 == 1);
+      ++sweeps_;
     }
     if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
   }
@@ -292,7 +311,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     walls_.finish(nodes_, held, dt);
     tools_.finish(nodes_, dt);
     modulus_ = unit(dt) * modulus_of(sweeps_);
-    load_ = std::max(load_, tools_.pressure().mean / modulus_);
+    // What is stiffer than the soil by so much answers as the soil does.
+    if (modulus_ < kOwn * cells_.modulus()) load_ = std::max(load_, tools_.pressure().mean / modulus_);
   }
 
   /// What a step did in a block beside moving the soil.

@@ -222,7 +222,8 @@ void Run::look_for_soft_sweeps() {
   told_of_sweeps_ = true;
   warnings_.push_back(fmt::format(
       "at t = {:.6g} s the pressure on a tool has come to 1/{:.2g} of the modulus that the sweeps of a step resolve; "
-      "above 1/{:.2g} the force on it is too small: leave method.sweeps out, or write a shorter time.step",
+      "above 1/{:.2g} the force on it is too small: leave method.sweeps out, write a longer time.budget where that "
+      "ends sweeps, or a shorter time.step",
       static_cast<double>(simulation_.time()) * 1e-9, 1.0 / load->value, 1.0 / mpm::kMostSweepLoad));
 }
 

@@ -180,11 +180,10 @@ std::string RunSummary::text() const {
         fmt::format("  steps were made shorter on the way in {} sync period{}, since material got faster or stiffer\n",
                     divided, divided == 1 ? "" : "s");
   }
-  if (const double load = state.number("sweep_load"); load > 0.0) {
-    text += fmt::format(
-        "  sweeps resolve a modulus of {:.3g} kPa in the last step; pressure on tools was up to 1/{:.3g} "
-        "of it\n",
-        1e-3 * state.number("sweep_modulus"), 1.0 / load);
+  if (const double modulus = state.number("sweep_modulus"); modulus > 0.0) {
+    text += fmt::format("  sweeps of the last step resolve a modulus of {:.3g} kPa", 1e-3 * modulus);
+    const double load = state.number("sweep_load");
+    text += load > 0.0 ? fmt::format("; pressure on tools was up to 1/{:.3g} of that of its step\n", 1.0 / load) : "\n";
   }
   if (!(state.step.courant <= 1.0)) {
     text += fmt::format("  a wave crossed {:.2g} cells in a step, which may be unstable: lower time.sync or time.cfl\n",

@@ -58,7 +58,7 @@ TEST(ImplicitStep, BladesOfEightCells) {
   EXPECT_NEAR(0.5 * sum, 1.0, 0.05);
 }
 
-// What is pressed down far above the soil's weight: strips, which a hundred plain sweeps leave at 0.75 and 0.85 of the
+// Loads far above the soil's weight: strips, which a hundred plain sweeps leave at 0.75 and 0.85 of the
 // exact force, and a wall that turns about its foot, which they leave at 0.8. With the default it is 0.91, 0.97 and
 // 0.95.
 TEST(ImplicitStep, LoadsFarAboveTheWeightAreMet) {

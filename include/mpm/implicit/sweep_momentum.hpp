@@ -10,7 +10,7 @@
 // Source: B. T. Polyak (1964), Some methods of speeding up the convergence of iteration methods, USSR Comput. Math.
 // Math. Phys. 4(5) 1; restarts after B. O'Donoghue, E. Candes (2015), Adaptive restart for accelerated gradient
 // schemes, Found. Comput. Math. 15, 715. That a sweep to and fro is what may be extrapolated, and the number 0.9, were
-// found by trial: of 0.95, or after each sweep, strips on dilating soil grew without bound.
+// found by trial: with 0.95, or after each sweep, the force on strips on dilating soil grew without bound.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace mpm {
 inline constexpr double kMomentum = 0.9;
 inline constexpr int kMostSweeps = 200;  ///< without a number in the scene
 
-/// Of the modulus that sweeps resolve, the largest pressure under which soil answers as it should: of 1/20 to 1/40 a
+/// Largest pressure, over the modulus that sweeps resolve, under which soil answers as it should: with 1/20 to 1/40 a
 /// blade's force is a few percent too small.
 inline constexpr double kMostSweepLoad = 1.0 / 30.0;
 
@@ -41,7 +41,7 @@ inline int sweeps_for(double modulus, int most) {
   return sweeps;
 }
 
-/// When a pair of sweeps begins without momentum.
+/// Rule by which a pair of sweeps begins without momentum.
 class MomentumRestart {
  public:
   void begin() { least_ = -1.0; }

@@ -14,9 +14,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kStiffer = 240;   ///< modulus that sweeps resolve over the mean pressure on tools
-constexpr double kOwn = 4.0;       ///< the same over the soil's own modulus, more than which is of no use
-constexpr double kSettled = 3e-3;  ///< change of all stresses in a sweep, over the stresses
+constexpr double kStiffer = 240.0;  ///< modulus that sweeps resolve over the mean pressure on tools
+constexpr double kOwn = 4.0;        ///< the same over the soil's own modulus, more than which is of no use
+constexpr double kSettled = 3e-3;   ///< change of all stresses in a sweep, over the stresses
 // Change of the forces on tools in the second half of the sweeps: over the forces, and over what the step has changed
 // them by, since of a force that grows slowly an error in each step adds up.
 constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
@@ -62,7 +62,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     own.by = this;
     own.part = static_cast<int>(sets_.size()) + pressed.body;
     own.speed = pressed.mean;
-    // Of a sliver the mean may be more than soil can bear.
+    // The mean over a sliver may be more than soil can bear.
     const double most = std::min(pressed.mean, kOwn * cells_.modulus());
     own.dt = period.cell * std::sqrt(kHeld * cells_.least_density() / most);
     limit.tighten(own);
@@ -218,7 +218,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     tools_.meet_free(table_, nodes_);
   }
 
-  /// Of the blocks that need it.
+  /// Sweeps the blocks that need it, then all contacts.
   void sweep(bool backwards) {
     soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
       if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
@@ -264,14 +264,17 @@ class ImplicitStep final : public Stage, public ContactReporter {
       const double allowed = std::clamp(kOfGain * gained, kLeastForceError, kForceError);
       settled = sum.change <= kSettled * kSettled * sum.size && change_ <= allowed;
     }
-    if (!cut && sweeps_ < most &&
-        !(budget != nullptr &&
-          budget->ends_after(sweeps_))) {  // blocks that were left out have gone on with the others
-      stirred_.assign(stirred_.size(), 1);
-      sweep(sweeps_ % 2 == 1);
-      ++sweeps_;
-    }
+    if (!cut) sweep_left_out(budget);
     if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
+  }
+
+  /// Ends the sweeps with one over all blocks where the last has left some out, which have gone on with the others.
+  void sweep_left_out(SweepBudget* budget) {
+    if (std::find(stirred_.begin(), stirred_.end(), 0) == stirred_.end()) return;
+    if (budget != nullptr && budget->ends_after(sweeps_)) return;
+    stirred_.assign(stirred_.size(), 1);
+    sweep(sweeps_ % 2 == 1);
+    ++sweeps_;
   }
 
   /// Finds blocks in which, or beside which, the last sweep has changed more than a block's share of `quiet`: the
@@ -311,7 +314,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     walls_.finish(nodes_, held, dt);
     tools_.finish(nodes_, dt);
     modulus_ = unit(dt) * modulus_of(sweeps_);
-    // What is stiffer than the soil by so much answers as the soil does.
+    // Sweeps that are stiffer than the soil by so much answer as the soil does.
     if (modulus_ < kOwn * cells_.modulus()) load_ = std::max(load_, tools_.pressure().mean / modulus_);
   }
 

@@ -144,7 +144,7 @@ Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinitio
 std::string step_warning(const SimulationDefinition& definition) {
   const Transfer& transfer = definition.method.transfer;
   const double most = stable_cfl(transfer);
-  // Of implicit steps it limits the motion of tools alone.
+  // It limits the motion of tools alone in implicit steps.
   if (definition.time.cfl <= most || definition.method.update == UpdateScheme::implicit) return {};
   const bool affine = transfer.kind == TransferKind::apic;
   return fmt::format("time.cfl is {:g}: with {} steps that long may be unstable; use at most {:g}", definition.time.cfl,

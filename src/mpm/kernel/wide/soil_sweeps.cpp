@@ -31,7 +31,7 @@ using mpm_kernel::SoilMask;
 using mpm_kernel::SoilNode;
 using mpm_kernel::SoilPlaces;
 
-// Of rings a node's gradient along y is its hoop function, the mean of N / r; of planes it is none, and what follows
+// In rings a node's gradient along y is its hoop function, the mean of N / r; in planes it is none, and what follows
 // from motion along y is left out.
 
 /// Rates of strain, mapped, from the velocities of the nodes.

@@ -7,6 +7,7 @@
 #include <mpm_ros/Command.h>
 #include <mpm_ros/SolverState.h>
 #include <mpm_ros/Step.h>
+#include <ros/network.h>
 #include <ros/ros.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -15,6 +16,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -184,6 +186,38 @@ class SimulatorProcess : public ProgramProcess {
   }
 };
 
+/// True if a node that publishes the topic lists this node among those that it sends to.
+inline bool sent_to_this_node(const std::string& topic) {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return false;
+  for (int i = 0; i < state[0].size(); ++i) {
+    if (static_cast<std::string>(state[0][i][0]) != topic) continue;
+    for (int k = 0; k < state[0][i][1].size(); ++k) {
+      XmlRpc::XmlRpcValue node, where, links;
+      node[0] = ros::this_node::getName();
+      node[1] = static_cast<std::string>(state[0][i][1][k]);
+      std::string host;
+      std::uint32_t port = 0;
+      if (!ros::master::execute("lookupNode", node, response, where, false) ||
+          !ros::network::splitURI(where, host, port)) {
+        continue;
+      }
+      XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+      if (!client.execute("getBusInfo", request, links) || links.size() < 3) continue;
+      // A link is its number, the node at its other end, its direction, its transport and its topic.
+      for (int link = 0; link < links[2].size(); ++link) {
+        XmlRpc::XmlRpcValue& one = links[2][link];
+        if (static_cast<std::string>(one[1]) == ros::this_node::getName() && static_cast<std::string>(one[2]) == "o" &&
+            static_cast<std::string>(one[4]) == topic) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 /// Subscribes to a topic on a thread of roscpp and keeps every message.
 template <typename Message>
 class Ear {
@@ -195,8 +229,9 @@ class Ear {
           messages_.push_back(*message);
         });
   }
+  /// Waits until a publisher sends its messages here: this side counts a publisher before that one has answered.
   bool connected() const {
-    return eventually([&] { return subscriber_.getNumPublishers() > 0; });
+    return eventually([&] { return subscriber_.getNumPublishers() > 0 && sent_to_this_node(subscriber_.getTopic()); });
   }
   std::vector<Message> heard() const {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -2,15 +2,20 @@
 //
 // Strength is that of the explicit law (drucker_prager.hpp, mohr_coulomb.hpp): a round cone, or Mohr-Coulomb's surface
 // in invariants, sqrt(J2) k(phi) <= c cos(phi) + p sin(phi) with the k of the Lode angle (kernel/soil_cells.hpp). Flow
-// is radial in the deviatoric plane; dilation ends and strength falls as in the explicit laws (softening.hpp).
+// is radial in the deviatoric plane; dilation ends and strength falls as in the explicit laws (softening.hpp). That of
+// j2_plasticity is a cohesion, sigma_y / sqrt(3), of the plastic strain at the step's start; that of mu_i is a round
+// cone whose slope follows the rate of the step itself (mu_i.hpp).
 //
 // Weak: for mohr_coulomb flow has no corners, and its tension limit is one of the mean stress, as for drucker_prager.
+// Metal yields on its Cauchy stress, where the explicit law has that times J.
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include "mpm/material/definition.hpp"
-#include "mpm/material/opening.hpp"
+#include "mpm/material/j2_plasticity.hpp"
 #include "mpm/material/softening.hpp"
 
 namespace mpm {
@@ -18,19 +23,38 @@ namespace mpm {
 /// Why a material cannot take implicit steps, and what can be used instead; empty when it can.
 std::string refused_implicit(const MaterialDefinition& material);
 
+/// True for soils in which forces on tools were measured (doc/implicit.md), so that a choice of the method may rest on
+/// it.
+bool measured_implicit(const MaterialDefinition& material);
+
 struct ImplicitSoil {
   /// @throws MaterialError for a material that refused_implicit() names
   explicit ImplicitSoil(const MaterialDefinition& material);
 
-  double density;      ///< [kg/m^3]
-  double bulk, shear;  ///< moduli [Pa]
-  /// sin(phi) and c cos(phi) [Pa]; of a round cone eta and xi c, which fall in the same way.
-  Fall sine, cohesion;
-  double dilation;    ///< sin(psi), or eta_bar
-  bool follows_lode;  ///< false for a round cone
-  double least;       ///< r_N at which it parts: minus sqrt(3) times the mean tension that it bears [Pa]
-  DilationEnd dilation_end;
-  StrengthFall fall;
+  /// c cos(phi) [Pa], of a round cone xi c, where `left` is the mean over a cell of what kernel/soil_cells.hpp has so:
+  /// the part of its fall that is left, and of metal 1 + plastic strain.
+  double cohesion_at(double left) const {
+    return metal_ ? metal_->yield_stress(left - 1.0) / std::sqrt(3.0) : cohesion_.at(left);
+  }
+
+  double density = 0.0;            ///< [kg/m^3]
+  double bulk = 0.0, shear = 0.0;  ///< moduli [Pa]
+  Fall sine;                       ///< sin(phi), or eta of a round cone
+  double dilation = 0.0;           ///< sin(psi), or eta_bar
+  bool follows_lode = false;       ///< false for a round cone
+  double least = 0.0;              ///< r_N at which it parts: minus sqrt(3) times the mean tension that it bears [Pa]
+  double dilation_start = 1.0, dilation_slope = 0.0;  ///< DilationEnd
+  double per_strain = 0.0;                            ///< change of `left`, downwards, by plastic strain
+  double friction_rise = 0.0;                         ///< mu_2 - mu_s; 0: no part of the strength is viscous
+  double reference_rate = 0.0;                        ///< for I_0, over sqrt(p) [1/(s sqrt(Pa))]
+  // Where particles store what a step changes, and the law's plastic strain over |e_T|.
+  int strain_at = 0, work_at = 0;
+  std::optional<int> opening_at;  ///< none: pressure is that of the volume, and so is what it does not account for
+  double strain_of_shear = 0.0;
+
+ private:
+  Fall cohesion_;
+  std::optional<J2Plasticity> metal_;
 };
 
 }  // namespace mpm

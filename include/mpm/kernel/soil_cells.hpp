@@ -17,6 +17,8 @@
 //   |r_T| <= sqrt(2) (cohesion + sine r_N / sqrt(3)) / k(sine), r_N >= least; flow e_T = -a r_T, e_N = theta |e_T|,
 //   theta = dilates sqrt(2/3) dilation / k(dilation),
 //
+// Of mu(I) sine is mu_s + (mu_2 - mu_s) y / (y + b), y the rate |e_T| that is not elastic and b = reference_rate
+// sqrt(r_N / (2 sqrt(3))): the root of a quadratic equation (material/mu_i.hpp) at the b_T and r_N of the last sweep.
 // with the k of Mohr-Coulomb's surface at the Lode angle of r_T (material/drucker_prager.hpp), whose direction is that
 // of -b_T whatever its size; of a round cone k is 1. A sweep takes the Lode angle that the one before has found, so
 // that what follows from it is not waited for. With b = e - W r + shift, what the cell's rate would be without its
@@ -59,6 +61,8 @@ struct alignas(64) SoilGroup {
   T strength[kGroupCells], slope[kGroupCells], theta[kGroupCells];
   int node[kCellNodes][kGroupCells];
   int place[kGroupCells];  ///< of the cell among all places of cells; -1 without one
+  T friction_rise;         ///< mu_2 - mu_s of mu(I); 0: strength does not depend on the rate
+  T reference_rate;        ///< of mu(I), over the root of pressure [1/(s sqrt(Pa))]
   int mask;                ///< number of its SoilMask; -1: no node of it is held
 };
 
@@ -161,14 +165,15 @@ struct SoilParticles {
   const double* x[3];
   T* f[9];
   T* tau[6];
-  T *strain, *opening, *work;  ///< history of the laws of soil
+  T *strain, *opening, *work;  ///< history; without openings pressure is that of the volume
   const T* masses;             ///< null where all have `mass`
   double mass;                 ///< [kg]
   double half[3];              ///< half of a box along the grid's axes [cells]
   double origin[3], inverse_cell[3];
   double density;                         ///< initial [kg/m^3]
   double bulk, shear;                     ///< [Pa]
-  double per_strain;                      ///< of the fall of strength (StrengthFall)
+  double per_strain;                      ///< change of `left`, downwards, by plastic strain
+  double strain_of_shear;                 ///< plastic strain over |e_T|
   double dilation_start, dilation_slope;  ///< DilationEnd
 };
 

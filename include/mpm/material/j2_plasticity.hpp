@@ -69,6 +69,8 @@ class J2Plasticity : public LawTraits {
     return sqrt(stiffest_wave(gb, NeoHookean::volume_stiffness(j, bulk_)) * j * T(1.0 / density_));
   }
   double density() const { return density_; }
+  /// sigma_y at a plastic strain [Pa].
+  double yield_stress(double strain) const { return strength(strain, voce_part(strain)); }
 
  private:
   template <class T, class Symmetric>

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "mpm/grid/each_share.hpp"
-#include "mpm/material/drucker_prager.hpp"
-#include "mpm/material/mohr_coulomb.hpp"
 
 namespace mpm {
 namespace {
@@ -56,6 +54,14 @@ int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
     groups += (cells + mpm_kernel::kGroupCells - 1) / mpm_kernel::kGroupCells;
   }
   return groups;
+}
+
+/// What all cells of a group have alike, before the first.
+template <class T>
+void begin_group(mpm_kernel::SoilGroup<T>& group, const ImplicitSoil& soil) {
+  group.mask = -1;
+  group.friction_rise = static_cast<T>(soil.friction_rise);
+  group.reference_rate = static_cast<T>(soil.reference_rate);
 }
 
 /// A lane without a cell: that of the first one, which moves nothing.
@@ -130,20 +136,18 @@ mpm_kernel::SoilParticles<T> SoilCells<T>::view_of(int body) const {
   }
   for (std::size_t i = 0; i < set.f.size(); ++i) view.f[i] = set.f[i].template data<T>();
   for (std::size_t i = 0; i < set.tau.size(); ++i) view.tau[i] = set.tau[i].template data<T>();
-  static_assert(DruckerPrager::kPlasticStrain == MohrCoulomb::kPlasticStrain &&
-                DruckerPrager::kOpening == MohrCoulomb::kOpening &&
-                DruckerPrager::kPlasticWork == MohrCoulomb::kPlasticWork);
-  view.strain = set.history[DruckerPrager::kPlasticStrain].template data<T>();
-  view.opening = set.history[DruckerPrager::kOpening].template data<T>();
-  view.work = set.history[DruckerPrager::kPlasticWork].template data<T>();
+  view.strain = set.history[soil.strain_at].template data<T>();
+  view.opening = soil.opening_at ? set.history[*soil.opening_at].template data<T>() : nullptr;
+  view.work = set.history[soil.work_at].template data<T>();
   view.masses = set.masses.empty() ? nullptr : set.masses[0].template data<T>();
   view.mass = set.mass;
   view.density = soil.density;
   view.bulk = soil.bulk;
   view.shear = soil.shear;
-  view.per_strain = soil.fall.per_strain();
-  view.dilation_start = soil.dilation_end.start();
-  view.dilation_slope = soil.dilation_end.slope();
+  view.per_strain = soil.per_strain;
+  view.strain_of_shear = soil.strain_of_shear;
+  view.dilation_start = soil.dilation_start;
+  view.dilation_slope = soil.dilation_slope;
   return view;
 }
 
@@ -228,7 +232,7 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
       for (int i = order.begin[c]; i < order.begin[c + 1]; ++i) {
         const int n = order.numbers[i];
         if (!(sums_[at + n].volume > 0.0)) continue;
-        if (lanes == 0) groups_[next].mask = -1;
+        if (lanes == 0) begin_group(groups_[next], bodies_.soils[soil]);
         std::array<int, 3> local{};
         for (int k = dim - 1, rest = n; k >= 0; --k, rest /= kBlockEdge) local[k] = rest % kBlockEdge;
         make_cell(sums_[at + n], soil, block, local, dt, next, lanes, places);
@@ -272,12 +276,14 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
   group.compliance_n[lane] = static_cast<T>(compliance_n);
   group.compliance_t[lane] = static_cast<T>(compliance_t);
   group.sine[lane] = static_cast<T>(soil.sine.at(left));
-  group.cohesion[lane] = static_cast<T>(soil.cohesion.at(left));
+  group.cohesion[lane] = static_cast<T>(soil.cohesion_at(left));
   group.dilation[lane] = static_cast<T>(soil.dilation);
   group.dilates[lane] = static_cast<T>(per_volume * sums.dilates);
   group.least[lane] = static_cast<T>(soil.least);
   group.lode[lane] = soil.follows_lode ? T(1) : T(0);
-  group.closing[lane] = static_cast<T>(kOverRoot3 * (opening > 0.0 ? opening : kGivenBack * opening) / dt);
+  // Soil that has parted closes before it is pressed; volume that pressure should account for is an error.
+  const bool closes = soil.opening_at && opening > 0.0;
+  group.closing[lane] = static_cast<T>(kOverRoot3 * (closes ? opening : kGivenBack * opening) / dt);
   for (int i = 0; i < 6; ++i) {
     const double r = grid_.rings() && i == 3 ? 0.0 : per_volume * sums.stress[i];
     group.stress[i][lane] = static_cast<T>(r);

@@ -6,66 +6,111 @@
 #include <variant>
 
 #include "mpm/material/drucker_prager.hpp"
+#include "mpm/material/mohr_coulomb.hpp"
+#include "mpm/material/mu_i.hpp"
+#include "mpm/material/opening.hpp"
 
 namespace mpm {
 namespace {
 
 constexpr double kNoLimit = 1e30;  ///< of tension [Pa]
 
-/// What both laws of soil have.
-template <class Value>
-auto of_soil(const MaterialDefinition& material, Value&& value) {
-  if (const auto* soil = std::get_if<DruckerPragerDefinition>(&material.law)) return value(*soil);
-  if (const auto* soil = std::get_if<MohrCoulombDefinition>(&material.law)) return value(*soil);
-  throw MaterialError(refused_implicit(material));
-}
+/// One of the laws that implicit steps have, as ImplicitSoil sees it.
+class Reader {
+ public:
+  Reader(ImplicitSoil& soil, Fall& cohesion, std::optional<J2Plasticity>& metal)
+      : soil_(soil), cohesion_(cohesion), metal_(metal) {}
 
-template <class Soil>
-void take_surface(const Soil& d, ImplicitSoil& soil) {
-  const Soil last = d.softening.falls() ? weakened(d, 0.0) : d;
-  soil.sine = {std::sin(d.friction_angle), std::sin(last.friction_angle)};
-  soil.cohesion = {d.cohesion * std::cos(d.friction_angle), last.cohesion * std::cos(last.friction_angle)};
-  soil.dilation = std::sin(d.dilation_angle);
-  soil.follows_lode = true;
-}
+  bool operator()(const DruckerPragerDefinition& d) {
+    take_soil<DruckerPrager>(d);
+    if (d.match == ConeMatch::mohr_coulomb) return true;
+    const DruckerPrager cone(d, soil_.density), last(d.softening.falls() ? weakened(d, 0.0) : d, soil_.density);
+    soil_.sine = {cone.eta(), last.eta()};
+    cohesion_ = {cone.strength(), last.strength()};
+    soil_.dilation = cone.eta_bar();
+    soil_.follows_lode = false;
+    return true;
+  }
+  bool operator()(const MohrCoulombDefinition& d) {
+    take_soil<MohrCoulomb>(d);
+    return true;
+  }
+  bool operator()(const MuIDefinition& d) {
+    take_elasticity(d.elasticity);
+    take_history<MuI>();
+    soil_.opening_at = MuI::kOpening;
+    soil_.sine = {d.static_friction, d.static_friction};
+    soil_.friction_rise = d.limiting_friction - d.static_friction;
+    soil_.reference_rate = d.reference_inertial / (d.grain_diameter * std::sqrt(d.grain_density));
+    return true;
+  }
+  bool operator()(const J2PlasticityDefinition& d) {
+    take_elasticity(d.elasticity);
+    take_history<J2Plasticity>();
+    metal_.emplace(d, soil_.density);
+    soil_.least = -kNoLimit;
+    soil_.per_strain = -1.0;
+    soil_.strain_of_shear = std::sqrt(2.0 / 3.0);
+    return true;
+  }
+  template <class Other>
+  bool operator()(const Other&) {
+    return false;
+  }
 
-void take_cone(const DruckerPragerDefinition& d, ImplicitSoil& soil) {
-  const DruckerPrager cone(d, soil.density), last(d.softening.falls() ? weakened(d, 0.0) : d, soil.density);
-  soil.sine = {cone.eta(), last.eta()};
-  soil.cohesion = {cone.strength(), last.strength()};
-  soil.dilation = cone.eta_bar();
-  soil.follows_lode = false;
-}
+ private:
+  void take_elasticity(const Elasticity& elasticity) {
+    soil_.bulk = elasticity.bulk();
+    soil_.shear = elasticity.shear();
+  }
+  template <class Law>
+  void take_history() {
+    soil_.strain_at = Law::kPlasticStrain;
+    soil_.work_at = Law::kPlasticWork;
+    soil_.strain_of_shear = std::sqrt(2.0);  // sqrt(2 de:de)
+  }
+  template <class Law, class Definition>
+  void take_soil(const Definition& d) {
+    take_elasticity(d.elasticity);
+    take_history<Law>();
+    soil_.opening_at = Law::kOpening;
+    const Definition last = d.softening.falls() ? weakened(d, 0.0) : d;
+    soil_.sine = {std::sin(d.friction_angle), std::sin(last.friction_angle)};
+    cohesion_ = {d.cohesion * std::cos(d.friction_angle), last.cohesion * std::cos(last.friction_angle)};
+    soil_.dilation = std::sin(d.dilation_angle);
+    soil_.follows_lode = true;
+    soil_.least = d.tension_cutoff < 0.0 ? -kNoLimit : -std::sqrt(3.0) * d.tension_cutoff;
+    const DilationEnd end(d.softening.dilation_limit(d.dilation_limit));
+    soil_.dilation_start = end.start();
+    soil_.dilation_slope = end.slope();
+    soil_.per_strain = StrengthFall(d.softening).per_strain();
+  }
+
+  ImplicitSoil& soil_;
+  Fall& cohesion_;
+  std::optional<J2Plasticity>& metal_;
+};
 
 }  // namespace
 
-std::string refused_implicit(const MaterialDefinition& material) {
-  if (std::holds_alternative<DruckerPragerDefinition>(material.law)) return {};
-  if (std::holds_alternative<MohrCoulombDefinition>(material.law)) return {};
-  return fmt::format(
-      "implicit steps are made for soil of drucker_prager and mohr_coulomb, not for '{}' ({}); use usavg",
-      material.name, law_name(material.law));
+bool measured_implicit(const MaterialDefinition& material) {
+  return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
+         std::holds_alternative<MohrCoulombDefinition>(material.law);
 }
 
-ImplicitSoil::ImplicitSoil(const MaterialDefinition& material)
-    : density(material.density),
-      dilation_end(of_soil(material, [](const auto& d) { return d.softening.dilation_limit(d.dilation_limit); })),
-      fall(of_soil(material, [](const auto& d) { return d.softening; })) {
-  of_soil(material, [&](const auto& d) {
-    least = d.tension_cutoff < 0.0 ? -kNoLimit : -std::sqrt(3.0) * d.tension_cutoff;
-    bulk = d.elasticity.bulk();
-    shear = d.elasticity.shear();
-    return 0;
-  });
-  const auto* round = std::get_if<DruckerPragerDefinition>(&material.law);
-  if (round != nullptr && round->match != ConeMatch::mohr_coulomb) {
-    take_cone(*round, *this);
-  } else {
-    of_soil(material, [&](const auto& d) {
-      take_surface(d, *this);
-      return 0;
-    });
+std::string refused_implicit(const MaterialDefinition& material) {
+  const auto& law = material.law;
+  if (measured_implicit(material) || std::holds_alternative<MuIDefinition>(law) ||
+      std::holds_alternative<J2PlasticityDefinition>(law)) {
+    return {};
   }
+  return fmt::format(
+      "implicit steps are made for drucker_prager, mohr_coulomb, mu_i and j2_plasticity, not for '{}' ({}); use usavg",
+      material.name, law_name(law));
+}
+
+ImplicitSoil::ImplicitSoil(const MaterialDefinition& material) : density(material.density) {
+  if (!std::visit(Reader(*this, cohesion_, metal_), material.law)) throw MaterialError(refused_implicit(material));
 }
 
 }  // namespace mpm

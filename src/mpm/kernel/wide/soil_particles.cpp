@@ -187,6 +187,13 @@ inline __attribute__((always_inline)) typename Rows<T>::Sixteen over_radius(type
   return kLine ? Sixteen{} + one * cuts.centre[piece][q] : f;
 }
 
+/// Logarithmic volume, of a law whose pressure is K (1 / j - j) / 2 (material/neo_hookean.hpp), that its pressure does
+/// not account for.
+template <class W>
+W volume_beyond_pressure(W pressure, W j, double bulk) {
+  return max(min(W(1.0 / bulk) * pressure + W(0.5) * (j - W(1.0) / j), W(kDensest)), W(-kDensest));
+}
+
 template <class Geometry, class T>
 void gather(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places) {
   using W = Wide<T>;
@@ -217,7 +224,8 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
       const W mass = set.masses != nullptr ? W::load_first(set.masses + p, lanes) : W(set.mass);
       const W scale = -(W(set.density) / j);  // compression is positive
       const W xx = scale * tau.xx, yy = scale * tau.yy, zz = scale * tau.zz, shear = scale * W(1.0 / kOverRoot2);
-      const W opening = W::load_first(set.opening + p, lanes);
+      const W opening = set.opening != nullptr ? W::load_first(set.opening + p, lanes)
+                                               : volume_beyond_pressure(W(1.0 / 3.0) * (xx + yy + zz), j, set.bulk);
       const W left = max(W(1.0) - W(set.per_strain) * W::load_first(set.strain + p, lanes), W(0.0));
       const W dilates = left * max(min(W(set.dilation_start) - W(set.dilation_slope) * j, W(1.0)), W(0.0));
       (mass * W(1.0 / set.density) * j).store(numbers[0] + q);
@@ -320,11 +328,14 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
         return W(set.density) / volume * (mean * mean * W(0.5 / set.bulk) + deviator * W(0.25 / set.shear));
       };
       const W work = W(dt / set.density) * number(17) * j_old - (stored(tau, j) - stored(tau_old, j_old));
-      const W opening = W::load_first(set.opening + p, lanes) + W(dt / kOverRoot3) * number(15);
       Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
       Geometry::store_symmetric(tau, WideWriter<T>{set.tau, lanes}, p);
-      max(opening, W(-kDensest)).store_first(set.opening + p, lanes);
-      (W::load_first(set.strain + p, lanes) + W(dt / kOverRoot2) * number(16)).store_first(set.strain + p, lanes);
+      if (set.opening != nullptr) {
+        const W opening = W::load_first(set.opening + p, lanes) + W(dt / kOverRoot3) * number(15);
+        max(opening, W(-kDensest)).store_first(set.opening + p, lanes);
+      }
+      (W::load_first(set.strain + p, lanes) + W(dt * set.strain_of_shear) * number(16))
+          .store_first(set.strain + p, lanes);
       (W::load_first(set.work + p, lanes) + work).store_first(set.work + p, lanes);
     }
   }

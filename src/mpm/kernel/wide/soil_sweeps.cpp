@@ -231,6 +231,25 @@ inline __attribute__((always_inline)) void find_surface(SoilGroup<T>& group, con
         static_cast<T>(0.816496580927726) * load(group.dilates) * dilation * extremes.per_shear(dilation, lode));
 }
 
+/// Finds the slope of mu(I) at the rate that follows from |b_T|, own_t and r_N.
+template <class T>
+inline __attribute__((always_inline)) void find_slope_at_rate(SoilGroup<T>& group, Eight<T> bt, Eight<T> own_t,
+                                                              Eight<T> rn) {
+  constexpr T kRoot2 = static_cast<T>(1.4142135623730951);
+  const Eight<T> none{}, still = all<T>(kStill<T>), pressed = largest<T>(rn, still), over_t = static_cast<T>(1) / own_t;
+  const Eight<T> p = static_cast<T>(kOverRoot3) * pressed, rise = kRoot2 * group.friction_rise * p;
+  const Eight<T> least = kRoot2 * load(group.sine) * p;
+  const Eight<T> b = static_cast<T>(kOverRoot2) * group.reference_rate * root<T>(p);
+  // G y^2 + (G b + rise - S) y - S b = 0, S the excess over the strength at rest and G = 1 / own_t, y the rate.
+  const Eight<T> excess = largest<T>(none, bt * over_t - least);
+  const Eight<T> half = over_t * b + rise - excess;
+  const Eight<T> both = root<T>(half * half + static_cast<T>(4) * over_t * excess * b);
+  // Two forms of the same root, each without a difference of large numbers where it is used.
+  const Eight<T> y = half > none ? static_cast<T>(2) * excess * b / largest<T>(both + half, still)
+                                 : static_cast<T>(0.5) * own_t * (both - half);
+  store(group.slope, (least + rise * y / largest<T>(y + b, still)) / pressed);
+}
+
 template <class T>
 Eight<T> length(const Eight<T> (&b)[6]) {
   Eight<T> sum = b[1] * b[1] + b[2] * b[2];
@@ -272,6 +291,11 @@ void project(SoilGroup<T>& group) {
   for (int k = 0; k < 6; ++k) b[k] = -load(group.stress[k]);
   const Eight<T> bt = length<T>(b);
   find_surface(group, b, bt);
+  // The rate of the last step is not known here: it may have had any.
+  if (group.friction_rise > T(0)) {
+    constexpr double kSlope = 1.4142135623730951 * kOverRoot3;
+    store(group.slope, static_cast<T>(kSlope) * (load(group.sine) + group.friction_rise));
+  }
   solve(group, all<T>(1), all<T>(1), Eight<T>{}, b, bt, r);
   for (int k = 0; k < 6; ++k) store(group.stress[k], r[k]);
 }
@@ -298,6 +322,7 @@ inline __attribute__((always_inline)) void relax(SoilGroup<T>& group, const Soil
   spread(group, masks, r, corners);
   for (int e = 0; e < corners.kCount; ++e) store(nodes, group.node[e], corners.of[e]);
   find_surface(group, b, bt);
+  if (group.friction_rise > T(0)) find_slope_at_rate(group, bt, own_t, load(group.stress[0]));
 }
 
 template <class T, CellKind Kind>

@@ -69,7 +69,7 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"method.gradient_terms=3"}, "method: gradient_terms: implicit steps have 2 terms"},
       {{"method.average_stress=false"}, "method: average_stress: implicit steps have one stress in a cell as it is"},
       {{"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
-       "materials: implicit steps are made for drucker_prager, mohr_coulomb, mu_i and j2_plasticity, not for 'sand' "
+       "materials: implicit steps are made for drucker_prager, mohr_coulomb, j2_plasticity and mu_i, not for 'sand' "
        "(neo_hookean)"},
       {{"method.sweeps=1001"}, "method: sweeps: 1001 is not possible"},
       {{"time.step=0.2"}, "time: step: 0.2 s is too long"},

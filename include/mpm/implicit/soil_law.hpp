@@ -23,10 +23,6 @@ namespace mpm {
 /// Why a material cannot take implicit steps, and what can be used instead; empty when it can.
 std::string refused_implicit(const MaterialDefinition& material);
 
-/// True for soils in which forces on tools were measured (doc/implicit.md), so that a choice of the method may rest on
-/// it.
-bool measured_implicit(const MaterialDefinition& material);
-
 struct ImplicitSoil {
   /// @throws MaterialError for a material that refused_implicit() names
   explicit ImplicitSoil(const MaterialDefinition& material);

@@ -34,9 +34,15 @@
 
 namespace mpm {
 
-class CamClay : public LawTraits {
+class CamClay : public LawDefaults {
  public:
-  static constexpr bool kSoil = true;
+  static constexpr Matter kMatter = Matter::soil;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = true;
+  static constexpr bool kForgetsShape = false;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 4;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de
   static constexpr int kOpening = 1;        ///< fall of v over kappa by which the clay has opened beyond p = 0
@@ -113,7 +119,7 @@ class CamClay : public LawTraits {
   }
   double density() const { return density_; }
   /// Elastic strain of a Cauchy stress [Pa] at the volume j over the initial one.
-  Symmetric3<double> elastic_strain(const Symmetric3<double>& cauchy, double j) const;
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const;
   /// kHardening at the start under a Cauchy stress [Pa]: of clay with an overconsolidation ratio, which has been under
   /// that many times the surface through this stress.
   double initial_hardening(const Symmetric3<double>& cauchy) const;

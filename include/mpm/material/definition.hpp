@@ -4,12 +4,28 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "mpm/math/error.hpp"
 
 namespace mpm {
+
+// The laws; each has the class of this name in a file of its own. A definition names its law, and has the name that
+// scenes give to it.
+class CamClay;
+class DruckerPrager;
+class IdealGas;
+class J2Plasticity;
+class JohnsonCook;
+class LinearElastic;
+class MohrCoulomb;
+class MuI;
+class NeoHookean;
+class NewtonianFluid;
+class NorSand;
+class StandardLinearSolid;
 
 /// Thrown for constants outside their range.
 class MaterialError : public Error {
@@ -27,10 +43,14 @@ struct Elasticity {
 
 /// Linear hypoelasticity: the objective (Jaumann) rate of Cauchy stress.
 struct LinearElasticDefinition {
+  using Law = LinearElastic;
+  static constexpr const char* kName = "linear_elastic";
   Elasticity elasticity;
 };
 
 struct NeoHookeanDefinition {
+  using Law = NeoHookean;
+  static constexpr const char* kName = "neo_hookean";
   Elasticity elasticity;
 };
 
@@ -63,6 +83,8 @@ constexpr double kDilationRise = 1e-3;
 
 /// Drucker-Prager soil; angles in radians.
 struct DruckerPragerDefinition {
+  using Law = DruckerPrager;
+  static constexpr const char* kName = "drucker_prager";
   Elasticity elasticity;
   double friction_angle = 0.0;   ///< [rad], in [0, pi/2)
   double dilation_angle = 0.0;   ///< [rad], in [0, friction_angle]
@@ -75,6 +97,8 @@ struct DruckerPragerDefinition {
 
 /// Mohr-Coulomb soil; angles in radians.
 struct MohrCoulombDefinition {
+  using Law = MohrCoulomb;
+  static constexpr const char* kName = "mohr_coulomb";
   Elasticity elasticity;
   double friction_angle = 0.0;             ///< [rad], in [0, pi/2)
   double dilation_angle = 0.0;             ///< [rad], in [0, friction_angle]
@@ -87,6 +111,8 @@ struct MohrCoulombDefinition {
 /// Dry grain that flows at the rate-dependent friction mu(I) = mu_s + (mu_2 - mu_s) / (I_0 / I + 1), I = rate d /
 /// sqrt(p / rho_s).
 struct MuIDefinition {
+  using Law = MuI;
+  static constexpr const char* kName = "mu_i";
   Elasticity elasticity;
   double static_friction = 0.0;     ///< mu_s, > 0
   double limiting_friction = 0.0;   ///< mu_2, from mu_s to below 1
@@ -98,6 +124,8 @@ struct MuIDefinition {
 /// Modified Cam clay: soft soil between the lines v = N - lambda ln p and v = v_k - kappa ln p, flowing in the end at q
 /// = M p. Of shear_modulus and poisson one is used, and of consolidation and overconsolidation.
 struct CamClayDefinition {
+  using Law = CamClay;
+  static constexpr const char* kName = "cam_clay";
   double lambda = 0.0;             ///< slope of first compression over ln p, > kappa
   double kappa = 0.0;              ///< slope of swelling over ln p, > 0
   double slope = 0.0;              ///< M, > 0
@@ -112,6 +140,8 @@ struct CamClayDefinition {
 
 /// NorSand: sand that becomes stronger, stiffer and more dilatant with density, and less dilatant with pressure.
 struct NorSandDefinition {
+  using Law = NorSand;
+  static constexpr const char* kName = "norsand";
   double gamma = 0.0;               ///< void ratio of the critical state at 1 kPa; with an exponent, without pressure
   double lambda = 0.0;              ///< its fall over ln p, or over (p / 100 kPa)^exponent, > 0
   double critical_exponent = 0.0;   ///< xi, in (0, 1]; 0: the logarithm
@@ -136,6 +166,8 @@ struct NorSandDefinition {
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain
 /// a.
 struct J2PlasticityDefinition {
+  using Law = J2Plasticity;
+  static constexpr const char* kName = "j2_plasticity";
   Elasticity elasticity;
   double yield_stress = 0.0;       ///< Mises stress at first yield [Pa], > 0
   double hardening_modulus = 0.0;  ///< H [Pa], >= 0
@@ -153,6 +185,8 @@ struct MieGrueneisenDefinition {
 /// Metal under impact: flow stress (A + B a^n) (1 + C ln(rate/reference_rate)) (1 - T*^m) at plastic strain a, with T*
 /// = (T - reference_temperature) / (melting_temperature - reference_temperature).
 struct JohnsonCookDefinition {
+  using Law = JohnsonCook;
+  static constexpr const char* kName = "johnson_cook";
   double shear_modulus = 0.0;  ///< [Pa], > 0
   MieGrueneisenDefinition pressure;
   double yield_stress = 0.0;             ///< A [Pa], > 0
@@ -169,6 +203,8 @@ struct JohnsonCookDefinition {
 
 /// Fluid with Tait's equation p = K/n (J^-n - 1) and Newtonian viscosity.
 struct NewtonianFluidDefinition {
+  using Law = NewtonianFluid;
+  static constexpr const char* kName = "newtonian_fluid";
   double bulk_modulus = 0.0;  ///< K [Pa], > 0
   double exponent = 7.0;      ///< n, >= 1
   double viscosity = 0.0;     ///< dynamic, shear [Pa s], >= 0
@@ -179,6 +215,8 @@ enum class GasProcess { adiabatic, isothermal };
 
 /// Ideal gas: p = p0 (T/T0) / J.
 struct IdealGasDefinition {
+  using Law = IdealGas;
+  static constexpr const char* kName = "ideal_gas";
   double pressure = 0.0;             ///< p0, at the material's density and T0 [Pa], > 0
   double temperature = 0.0;          ///< T0, absolute [K], > 0
   double heat_capacity_ratio = 1.4;  ///< > 1
@@ -188,6 +226,8 @@ struct IdealGasDefinition {
 
 /// Neo-Hookean solid with the long-term constants, parallel to a Maxwell branch.
 struct StandardLinearSolidDefinition {
+  using Law = StandardLinearSolid;
+  static constexpr const char* kName = "viscoelastic";
   Elasticity elasticity;         ///< long-term
   double branch_modulus = 0.0;   ///< shear modulus of the branch's spring [Pa], > 0
   double relaxation_time = 0.0;  ///< of the branch [s], > 0
@@ -208,5 +248,10 @@ struct MaterialDefinition {
 void check(const MaterialDefinition& material);
 /// The law's name in scenes, such as "neo_hookean".
 std::string law_name(const LawDefinition& law);
+/// Young's modulus and Poisson's ratio of a law that has them; of a viscoelastic one those of long times.
+std::optional<Elasticity> elasticity_of(const LawDefinition& law);
+/// Friction angle [rad] of a law that flows in shear at a strength of Coulomb's kind; 0 where the strength does not
+/// follow the pressure.
+std::optional<double> friction_angle(const LawDefinition& law);
 
 }  // namespace mpm

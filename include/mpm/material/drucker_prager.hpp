@@ -33,10 +33,15 @@
 
 namespace mpm {
 
-class DruckerPrager : public LawTraits {
+class DruckerPrager : public LawDefaults {
  public:
-  static constexpr bool kSoil = true;
+  static constexpr Matter kMatter = Matter::soil;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::measured;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;
   static constexpr int kPlasticWork = 2;
@@ -74,6 +79,9 @@ class DruckerPrager : public LawTraits {
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     return soil_wave_speed(tau, j, bulk_, shear_, density_, flow_);
+  }
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const {
+    return LinearElastic::stress_strain(at.cauchy, bulk_, shear_);
   }
   double density() const { return density_; }
   /// The slope; with ConeMatch::mohr_coulomb the smallest one, that of the cone inside the surface.
@@ -183,5 +191,7 @@ class DruckerPrager : public LawTraits {
 /// passes through another state a different one; 1 or more where no stress in the plane makes it flow. Derived as the
 /// match in plane strain (drucker_prager.cpp).
 double friction_in_plane_strain(const DruckerPragerDefinition& d);
+/// The same of any law; none for what is not a Drucker-Prager soil.
+std::optional<double> friction_in_plane_strain(const LawDefinition& law);
 
 }  // namespace mpm

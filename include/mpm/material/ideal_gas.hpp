@@ -16,11 +16,17 @@
 
 namespace mpm {
 
-class IdealGas : public LawTraits {
+class IdealGas : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::gas;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = true;
+  static constexpr bool kForgetsShape = true;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 1;
   static constexpr int kTemperature = 0;
-  static constexpr bool kForgetsShape = true;
 
   IdealGas(const IdealGasDefinition& d, double density)
       : density_(density),
@@ -28,7 +34,8 @@ class IdealGas : public LawTraits {
         specific_pressure_(d.pressure / density),
         ratio_(d.heat_capacity_ratio),
         adiabatic_(d.process == GasProcess::adiabatic),
-        specific_ambient_(d.ambient / density) {}
+        specific_ambient_(d.ambient / density),
+        capacity_(d.pressure / (density * d.temperature * (d.heat_capacity_ratio - 1.0))) {}
 
   template <class T, class Matrix, class Symmetric>
   void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
@@ -56,6 +63,7 @@ class IdealGas : public LawTraits {
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     return sqrt(T(adiabatic_ ? ratio_ : 1.0) * whole_pressure(tau, j));
   }
+  double heat_capacity() const { return capacity_; }
   double density() const { return density_; }
   double reference_temperature() const { return temperature_; }
 
@@ -71,6 +79,7 @@ class IdealGas : public LawTraits {
   double ratio_;
   bool adiabatic_;
   double specific_ambient_;  ///< ambient pressure / rho0 [J/kg]
+  double capacity_;          ///< [J/(kg K)]
 };
 
 }  // namespace mpm

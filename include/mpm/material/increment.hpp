@@ -1,4 +1,5 @@
-// One increment of deformation, the input of a law, and the defaults of what a law declares.
+// One increment of deformation, the input of a law; what a law says of itself, and the defaults of what only some laws
+// have.
 #pragma once
 
 #include "mpm/math/tensor.hpp"
@@ -16,24 +17,50 @@ struct Increment {
   T dt;              ///< [s]
 };
 
-/// Defaults of the constants and functions that law.hpp asks for; a law derives from this and hides those that it
-/// defines itself.
+enum class Matter { solid, soil, liquid, gas };
+
+/// Implicit steps (implicit/soil_law.hpp): a law that has none of its own is refused, and `method: auto` takes those in
+/// which forces on tools were measured.
+enum class ImplicitSteps { refused, possible, measured };
+
+/// What a law is, for those who ask: a constant kMatter, kRateDependent and so on of each law. None has a default, so
+/// that a law which does not say it does not compile.
 struct LawTraits {
+  /// Soil is grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).
+  Matter matter;
+  bool rate_dependent;         ///< stress depends on the rate of strain
+  bool stiffness_of_pressure;  ///< stiffness follows the pressure, so that it has none of its own
+  /// Only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid shears
+  /// without end, and det F of its whole deformation would be a small difference of large numbers.
+  bool forgets_shape;
+  /// Particles of a cell that flow may share one stress (mechanics/stress_average.hpp): the law has a plastic strain,
+  /// keeps the stress or finds it from J, and its elastic_energy() does not ask for F.
+  bool averages_stress;
+  /// Such a law finds the pressure from J. Its particles then share in tension, too: it does not open as soil.
+  bool pressure_from_volume;
+  ImplicitSteps implicit;
+  bool flows;            ///< deforms without end: fluids, and what has a plastic strain
+  bool own_temperature;  ///< has a temperature in its history
+
+  bool fluid() const { return matter == Matter::liquid || matter == Matter::gas; }
+};
+
+/// Where a law is asked for the elastic part of a strain.
+struct StressedPoint {
+  Symmetric3<double> cauchy;  ///< [Pa]
+  Symmetric3<double> tau;     ///< Kirchhoff stress over initial density [J/kg]
+  Symmetric3<double> total;   ///< logarithmic strain of F
+  double j;
+};
+
+/// Defaults of the constants and functions that law.hpp asks for and that not all laws have; a law derives from this
+/// and hides those that it defines itself.
+struct LawDefaults {
   static constexpr int kHistory = 0;         ///< number of history scalars per particle, all zero at the start
   static constexpr int kPlasticStrain = -1;  ///< index of the equivalent plastic strain [-], or -1
   static constexpr int kPlasticWork = -1;    ///< index of the dissipated work [J/kg], or -1
   static constexpr int kTemperature = -1;    ///< index of temperature minus reference temperature [K], or -1
   static constexpr int kHardening = -1;      ///< index of what initial_hardening() gives, or -1
-  /// Whether only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid
-  /// shears without end, and det F of its whole deformation would be a small difference of large numbers.
-  static constexpr bool kForgetsShape = false;
-  /// True for a law of soil: grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).
-  static constexpr bool kSoil = false;
-  /// True if particles of a cell that flow may share one stress (mechanics/stress_average.hpp): the law has a plastic
-  /// strain, keeps the stress or finds it from J, and its elastic_energy() does not ask for F.
-  static constexpr bool kAveragesStress = false;
-  /// True if such a law finds the pressure from J. Its particles then share in tension, too: it does not open as soil.
-  static constexpr bool kPressureFromVolume = false;
   /// Largest kinematic viscosity for any motion at the present J [m^2/s].
   template <class T>
   T diffusivity(T) const {
@@ -44,6 +71,10 @@ struct LawTraits {
   double heat_fraction() const { return 0.0; }
   /// The history scalar kHardening of a particle that starts under this Cauchy stress [Pa].
   double initial_hardening(const Symmetric3<double>&) const { return 0.0; }
+  /// Elastic part of the strain, logarithmic; of laws that do not flow all of it.
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const { return at.total; }
+  /// Heat capacity at constant volume of a law with a temperature [J/(kg K)].
+  double heat_capacity() const { return 0.0; }
   /// Temperature to which the temperature in history is relative [K].
   double reference_temperature() const { return 0.0; }
 };

@@ -14,6 +14,13 @@
 
 namespace mpm {
 
+/// ln(s) / 2, s symmetric and positive: the logarithmic strain of b = s.
+Symmetric3<double> half_logarithm(const Symmetric3<double>& s);
+
+/// Elastic logarithmic strain of a law with s = G dev b and the whole volume J; `tau`: Kirchhoff stress over initial
+/// density [J/kg], `scale`: that density over G [kg/J].
+Symmetric3<double> isochoric_strain(const Symmetric3<double>& tau, double j, double scale);
+
 /// x, the largest root of the equation above.
 template <class T>
 T isochoric_excess(T j2, T j3) {

@@ -26,10 +26,15 @@
 
 namespace mpm {
 
-class J2Plasticity : public LawTraits {
+class J2Plasticity : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::solid;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
   static constexpr bool kPressureFromVolume = true;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::possible;
   static constexpr int kHistory = 2;
   static constexpr int kPlasticStrain = 0;
   static constexpr int kPlasticWork = 1;
@@ -67,6 +72,9 @@ class J2Plasticity : public LawTraits {
     const T modulus = T(shear_) / j;
     const Symmetric gb = scale_shift(deviator, modulus, modulus * (T(1) + isochoric_excess(deviator)));
     return sqrt(stiffest_wave(gb, NeoHookean::volume_stiffness(j, bulk_)) * j * T(1.0 / density_));
+  }
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const {
+    return isochoric_strain(at.tau, at.j, density_ / shear_);
   }
   double density() const { return density_; }
   /// sigma_y at a plastic strain [Pa].

@@ -31,8 +31,15 @@
 
 namespace mpm {
 
-class JohnsonCook : public LawTraits {
+class JohnsonCook : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::solid;
+  static constexpr bool kRateDependent = true;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 4;
   static constexpr int kPlasticStrain = 0;
   static constexpr int kPlasticWork = 1;
@@ -91,6 +98,10 @@ class JohnsonCook : public LawTraits {
     const T bulk = equation_of_state_.bulk(j, pressure_of(tau, j));
     return sqrt(stiffest_wave(gb, bulk) * j * T(1.0 / density_));
   }
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const {
+    return isochoric_strain(at.tau, at.j, density_ / shear_);
+  }
+  double heat_capacity() const { return capacity_; }
   double density() const { return density_; }
   double heat_fraction() const { return heat_fraction_; }
   double reference_temperature() const { return reference_; }

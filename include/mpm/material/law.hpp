@@ -1,6 +1,7 @@
 // The closed list of constitutive laws, and the functions that the mechanics calls. A law is a plain class, derived
-// from LawTraits (increment.hpp) for the constants and functions that it does not define itself, with
+// from LawDefaults (increment.hpp) for the constants and functions that it does not define itself, with
 //
+//   constants kMatter … kImplicit                    what it is (LawTraits in increment.hpp); all of them
 //   void update(increment, tau, history) const;      tau: Kirchhoff stress over initial density [J/kg], in and out;
 //                                                    history[k]: in and out; k < kHistory <= mpm_kernel::kMostHistory
 //   double elastic_energy(F, tau, J) const;          [J/kg]
@@ -10,10 +11,12 @@
 // The law is chosen once per block and body (kernel/stress.hpp); inside there is no virtual call and no branch on it.
 // update(), wave_speed() and diffusivity() are templates, written once for a number and for a wide register of
 // particles (math/lanes.hpp): instead of branching on a value they select, and skip work that no lane needs. The rest
-// is for single numbers. To add a law: a definition in definition.hpp, a file beside these, its name in the two
-// variants and in make_law().
+// is for single numbers. To add a law: a definition and its name in the list in definition.hpp, a file beside these,
+// and its header below. Others ask what it is by its traits, not by its name.
 #pragma once
 
+#include <string>
+#include <type_traits>
 #include <variant>
 
 #include "mpm/material/cam_clay.hpp"
@@ -32,8 +35,36 @@
 
 namespace mpm {
 
-using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb, J2Plasticity, NewtonianFluid, IdealGas,
-                         StandardLinearSolid, JohnsonCook, MuI, CamClay, NorSand>;
+template <class Definitions>
+struct LawsOf;
+template <class... Definition>
+struct LawsOf<std::variant<Definition...>> {
+  using type = std::variant<typename Definition::Law...>;
+};
+using Law = LawsOf<LawDefinition>::type;
+
+template <class OneLaw>
+constexpr LawTraits kTraitsOf{
+    OneLaw::kMatter,
+    OneLaw::kRateDependent,
+    OneLaw::kStiffnessOfPressure,
+    OneLaw::kForgetsShape,
+    OneLaw::kAveragesStress,
+    OneLaw::kPressureFromVolume,
+    OneLaw::kImplicit,
+    OneLaw::kPlasticStrain >= 0 || OneLaw::kMatter == Matter::liquid || OneLaw::kMatter == Matter::gas,
+    OneLaw::kTemperature >= 0};
+
+inline LawTraits traits_of(const Law& law) {
+  return std::visit([](const auto& own) { return kTraitsOf<std::decay_t<decltype(own)>>; }, law);
+}
+inline LawTraits traits_of(const LawDefinition& law) {
+  return std::visit([](const auto& own) { return kTraitsOf<typename std::decay_t<decltype(own)>::Law>; }, law);
+}
+inline LawTraits traits_of(const MaterialDefinition& material) { return traits_of(material.law); }
+
+/// Names of the laws whose traits fit, as "a, b and c".
+std::string law_names(bool (*fits)(const LawTraits&));
 
 /// Makes the law of a material. @throws MaterialError as check() does
 Law make_law(const MaterialDefinition& material);

@@ -9,8 +9,15 @@
 
 namespace mpm {
 
-class LinearElastic : public LawTraits {
+class LinearElastic : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::solid;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   LinearElastic(const LinearElasticDefinition& d, double density)
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
 
@@ -41,6 +48,12 @@ class LinearElastic : public LawTraits {
     const double pressure = trace(cauchy) / 3.0;
     const double deviator2 = squared_norm(scale_shift(cauchy, 1.0, -pressure));
     return pressure * pressure / (2.0 * bulk) + deviator2 / (4.0 * shear);
+  }
+
+  /// Strain of a Cauchy stress [Pa].
+  static Symmetric3<double> stress_strain(const Symmetric3<double>& cauchy, double bulk, double shear) {
+    const double mean = trace(cauchy) / 3.0;
+    return scale_shift(cauchy, 0.5 / shear, mean * (1.0 / (3.0 * bulk) - 0.5 / shear));
   }
 
   template <class T, class Matrix, class Symmetric>

@@ -25,10 +25,15 @@
 
 namespace mpm {
 
-class MohrCoulomb : public LawTraits {
+class MohrCoulomb : public LawDefaults {
  public:
-  static constexpr bool kSoil = true;
+  static constexpr Matter kMatter = Matter::soil;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::measured;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de, as in Drucker-Prager
   static constexpr int kOpening = 1;        ///< logarithmic volume by which the soil has opened
@@ -103,6 +108,9 @@ class MohrCoulomb : public LawTraits {
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     return soil_wave_speed(tau, j, bulk_, shear_, density_, flow_);
+  }
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const {
+    return LinearElastic::stress_strain(at.cauchy, bulk_, shear_);
   }
   double density() const { return density_; }
   double sin_dilation() const { return sin_dilation_; }

@@ -22,10 +22,15 @@
 
 namespace mpm {
 
-class MuI : public LawTraits {
+class MuI : public LawDefaults {
  public:
-  static constexpr bool kSoil = true;
+  static constexpr Matter kMatter = Matter::soil;
+  static constexpr bool kRateDependent = true;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::possible;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;
   static constexpr int kOpening = 1;  ///< logarithmic volume by which the grain has opened
@@ -64,6 +69,9 @@ class MuI : public LawTraits {
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     return soil_wave_speed(tau, j, bulk_, shear_, density_, flow_);
+  }
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const {
+    return LinearElastic::stress_strain(at.cauchy, bulk_, shear_);
   }
   double density() const { return density_; }
 

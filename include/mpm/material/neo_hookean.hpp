@@ -11,8 +11,15 @@
 
 namespace mpm {
 
-class NeoHookean : public LawTraits {
+class NeoHookean : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::solid;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   NeoHookean(const NeoHookeanDefinition& d, double density)
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
 

@@ -15,11 +15,17 @@
 
 namespace mpm {
 
-class NewtonianFluid : public LawTraits {
+class NewtonianFluid : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::liquid;
+  static constexpr bool kRateDependent = true;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = true;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 1;
   static constexpr int kPlasticWork = 0;  ///< work of the viscous stress
-  static constexpr bool kForgetsShape = true;
 
   NewtonianFluid(const NewtonianFluidDefinition& d, double density)
       : density_(density), bulk_(d.bulk_modulus), exponent_(d.exponent), viscosity_(d.viscosity), tension_(d.tension) {

@@ -50,10 +50,15 @@
 
 namespace mpm {
 
-class NorSand : public LawTraits {
+class NorSand : public LawDefaults {
  public:
-  static constexpr bool kSoil = true;
+  static constexpr Matter kMatter = Matter::soil;
+  static constexpr bool kRateDependent = false;
+  static constexpr bool kStiffnessOfPressure = true;
+  static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 4;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de
   static constexpr int kOpening = 1;        ///< logarithmic volume by which the sand has opened beyond p = 0
@@ -127,7 +132,7 @@ class NorSand : public LawTraits {
   }
   double density() const { return density_; }
   /// Elastic strain of a Cauchy stress [Pa].
-  Symmetric3<double> elastic_strain(const Symmetric3<double>& cauchy) const;
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const;
   /// kHardening at the start under a Cauchy stress [Pa]: of the surface through it, grown by the overconsolidation
   /// ratio.
   double initial_hardening(const Symmetric3<double>& cauchy) const;

@@ -18,8 +18,15 @@
 
 namespace mpm {
 
-class StandardLinearSolid : public LawTraits {
+class StandardLinearSolid : public LawDefaults {
  public:
+  static constexpr Matter kMatter = Matter::solid;
+  static constexpr bool kRateDependent = true;
+  static constexpr bool kStiffnessOfPressure = false;
+  static constexpr bool kForgetsShape = false;
+  static constexpr bool kAveragesStress = false;
+  static constexpr bool kPressureFromVolume = false;
+  static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 1;
   static constexpr int kPlasticWork = 0;  ///< energy lost in the dashpot
 

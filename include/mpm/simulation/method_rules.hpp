@@ -26,7 +26,6 @@ double stable_cfl(const Transfer& transfer);
 /// True if what flows has one stress in a cell. If the method does not say so: wherever it can lock, unless another
 /// remedy, average_dilatation, is chosen, or cracks are there, whose two sides a cell would join.
 bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks);
-bool is_soil(const Law& law);
 /// True if particles of a body can share their stress: its law can, and if it finds the pressure from J, neither heat
 /// nor moisture strains the material, since that pressure belongs to what is left of J without such a strain.
 bool shares_stress(const SimulationDefinition& definition, const DeformableBody& body);

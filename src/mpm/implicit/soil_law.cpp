@@ -5,10 +5,7 @@
 #include <cmath>
 #include <variant>
 
-#include "mpm/material/drucker_prager.hpp"
-#include "mpm/material/mohr_coulomb.hpp"
-#include "mpm/material/mu_i.hpp"
-#include "mpm/material/opening.hpp"
+#include "mpm/material/law.hpp"
 
 namespace mpm {
 namespace {
@@ -93,20 +90,11 @@ class Reader {
 
 }  // namespace
 
-bool measured_implicit(const MaterialDefinition& material) {
-  return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
-         std::holds_alternative<MohrCoulombDefinition>(material.law);
-}
-
 std::string refused_implicit(const MaterialDefinition& material) {
-  const auto& law = material.law;
-  if (measured_implicit(material) || std::holds_alternative<MuIDefinition>(law) ||
-      std::holds_alternative<J2PlasticityDefinition>(law)) {
-    return {};
-  }
-  return fmt::format(
-      "implicit steps are made for drucker_prager, mohr_coulomb, mu_i and j2_plasticity, not for '{}' ({}); use usavg",
-      material.name, law_name(law));
+  if (traits_of(material).implicit != ImplicitSteps::refused) return {};
+  return fmt::format("implicit steps are made for {}, not for '{}' ({}); use usavg",
+                     law_names([](const LawTraits& traits) { return traits.implicit != ImplicitSteps::refused; }),
+                     material.name, law_name(material.law));
 }
 
 ImplicitSoil::ImplicitSoil(const MaterialDefinition& material) : density(material.density) {

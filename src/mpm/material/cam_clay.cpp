@@ -14,10 +14,11 @@ CamClay::CamClay(const CamClayDefinition& d, double density)
       least_(d.least_pressure),
       ratio_(d.overconsolidation) {}
 
-Symmetric3<double> CamClay::elastic_strain(const Symmetric3<double>& cauchy, double j) const {
+Symmetric3<double> CamClay::elastic_strain(const StressedPoint& at) const {
+  const Symmetric3<double>& cauchy = at.cauchy;
   const double mean = trace(cauchy) / 3.0, pressure = std::max(-mean, 0.0);
-  const double volume = -kappa_ / (volume_ * j) * std::log1p(pressure / least_);
-  const double shear = shear_at(pressure, j);
+  const double volume = -kappa_ / (volume_ * at.j) * std::log1p(pressure / least_);
+  const double shear = shear_at(pressure, at.j);
   return scale_shift(cauchy, 0.5 / shear, volume / 3.0 - 0.5 * mean / shear);
 }
 

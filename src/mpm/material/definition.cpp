@@ -225,20 +225,22 @@ struct Checker {
   }
 };
 
-struct Name {
-  std::string operator()(const CamClayDefinition&) const { return "cam_clay"; }
-  std::string operator()(const NorSandDefinition&) const { return "norsand"; }
-  std::string operator()(const MuIDefinition&) const { return "mu_i"; }
-  std::string operator()(const LinearElasticDefinition&) const { return "linear_elastic"; }
-  std::string operator()(const NeoHookeanDefinition&) const { return "neo_hookean"; }
-  std::string operator()(const DruckerPragerDefinition&) const { return "drucker_prager"; }
-  std::string operator()(const MohrCoulombDefinition&) const { return "mohr_coulomb"; }
-  std::string operator()(const J2PlasticityDefinition&) const { return "j2_plasticity"; }
-  std::string operator()(const NewtonianFluidDefinition&) const { return "newtonian_fluid"; }
-  std::string operator()(const IdealGasDefinition&) const { return "ideal_gas"; }
-  std::string operator()(const StandardLinearSolidDefinition&) const { return "viscoelastic"; }
-  std::string operator()(const JohnsonCookDefinition&) const { return "johnson_cook"; }
-};
+template <class Definition>
+auto elasticity_in(const Definition& d, int) -> decltype(std::optional<Elasticity>(d.elasticity)) {
+  return d.elasticity;
+}
+template <class Definition>
+std::optional<Elasticity> elasticity_in(const Definition&, long) {
+  return std::nullopt;
+}
+template <class Definition>
+auto friction_in(const Definition& d, int) -> decltype(std::optional<double>(d.friction_angle)) {
+  return d.friction_angle;
+}
+template <class Definition>
+std::optional<double> friction_in(const Definition&, long) {
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -249,6 +251,17 @@ void check(const MaterialDefinition& material) {
   std::visit(Checker{material}, material.law);
 }
 
-std::string law_name(const LawDefinition& law) { return std::visit(Name{}, law); }
+std::optional<Elasticity> elasticity_of(const LawDefinition& law) {
+  return std::visit([](const auto& own) { return elasticity_in(own, 0); }, law);
+}
+
+std::optional<double> friction_angle(const LawDefinition& law) {
+  if (std::holds_alternative<J2PlasticityDefinition>(law)) return 0.0;
+  return std::visit([](const auto& own) { return friction_in(own, 0); }, law);
+}
+
+std::string law_name(const LawDefinition& law) {
+  return std::visit([](const auto& own) { return own.kName; }, law);
+}
 
 }  // namespace mpm

@@ -118,4 +118,10 @@ double friction_in_plane_strain(const DruckerPragerDefinition& d) {
   return a * matched.eta / (1.0 - matched.eta * matched.eta_bar / 3.0);
 }
 
+std::optional<double> friction_in_plane_strain(const LawDefinition& law) {
+  const auto* soil = std::get_if<DruckerPragerDefinition>(&law);
+  if (soil == nullptr) return std::nullopt;
+  return friction_in_plane_strain(*soil);
+}
+
 }  // namespace mpm

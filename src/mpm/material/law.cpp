@@ -1,29 +1,37 @@
 #include "mpm/material/law.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace mpm {
 namespace {
 
-struct Maker {
-  double density;
-  Law operator()(const LinearElasticDefinition& d) const { return LinearElastic(d, density); }
-  Law operator()(const NeoHookeanDefinition& d) const { return NeoHookean(d, density); }
-  Law operator()(const DruckerPragerDefinition& d) const { return DruckerPrager(d, density); }
-  Law operator()(const MohrCoulombDefinition& d) const { return MohrCoulomb(d, density); }
-  Law operator()(const J2PlasticityDefinition& d) const { return J2Plasticity(d, density); }
-  Law operator()(const NewtonianFluidDefinition& d) const { return NewtonianFluid(d, density); }
-  Law operator()(const IdealGasDefinition& d) const { return IdealGas(d, density); }
-  Law operator()(const StandardLinearSolidDefinition& d) const { return StandardLinearSolid(d, density); }
-  Law operator()(const JohnsonCookDefinition& d) const { return JohnsonCook(d, density); }
-  Law operator()(const MuIDefinition& d) const { return MuI(d, density); }
-  Law operator()(const CamClayDefinition& d) const { return CamClay(d, density); }
-  Law operator()(const NorSandDefinition& d) const { return NorSand(d, density); }
-};
+template <std::size_t... Number>
+void add_names(bool (*fits)(const LawTraits&), std::vector<std::string>& names, std::index_sequence<Number...>) {
+  const auto add = [&](const LawTraits& traits, const char* name) {
+    if (fits(traits)) names.emplace_back(name);
+  };
+  (add(kTraitsOf<std::variant_alternative_t<Number, Law>>, std::variant_alternative_t<Number, LawDefinition>::kName),
+   ...);
+}
 
 }  // namespace
 
+std::string law_names(bool (*fits)(const LawTraits&)) {
+  std::vector<std::string> names;
+  add_names(fits, names, std::make_index_sequence<std::variant_size_v<Law>>());
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 < names.size() ? ", " : " and ";
+    text += names[i];
+  }
+  return text;
+}
+
 Law make_law(const MaterialDefinition& material) {
   check(material);
-  return std::visit(Maker{material.density}, material.law);
+  return std::visit([&](const auto& d) -> Law { return typename std::decay_t<decltype(d)>::Law(d, material.density); },
+                    material.law);
 }
 
 }  // namespace mpm

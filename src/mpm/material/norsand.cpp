@@ -43,7 +43,8 @@ double NorSand::volume_energy(double raised) const {
   return (integral(2.0 - exponent_) - least_ * integral(1.0 - exponent_)) / stiffness_;
 }
 
-Symmetric3<double> NorSand::elastic_strain(const Symmetric3<double>& cauchy) const {
+Symmetric3<double> NorSand::elastic_strain(const StressedPoint& at) const {
+  const Symmetric3<double>& cauchy = at.cauchy;
   const double mean = trace(cauchy) / 3.0, raised = std::max(-mean, 0.0) + least_;
   const double volume = (least_root_ - power(raised, 1.0 - exponent_)) / spring_;
   const double shear = shear_over_bulk_ * bulk_at(raised);

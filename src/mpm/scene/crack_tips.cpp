@@ -8,6 +8,7 @@
 
 #include "mpm/crack/chain.hpp"
 #include "mpm/crack/fracture_criterion.hpp"
+#include "mpm/material/law.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -30,19 +31,13 @@ std::size_t material_of(const std::string& name, const Scene& scene) {
   return static_cast<std::size_t>(found - all.begin());
 }
 
-bool has_strain_energy(const LawDefinition& law) {
-  return std::holds_alternative<LinearElasticDefinition>(law) || std::holds_alternative<NeoHookeanDefinition>(law) ||
-         std::holds_alternative<J2PlasticityDefinition>(law) || std::holds_alternative<JohnsonCookDefinition>(law) ||
-         std::holds_alternative<StandardLinearSolidDefinition>(law);
-}
+bool has_strain_energy(const LawDefinition& law) { return traits_of(law).matter == Matter::solid; }
 
-/// Of materials whose stress intensities follow from J: isotropic, elastic but for what yields near the tip.
+/// Constants of materials whose stress intensities follow from J: isotropic, elastic but for what yields near the tip.
 std::optional<ElasticConstants> constants_of(const MaterialDefinition& material, GeometryKind geometry) {
-  const Elasticity* elasticity = nullptr;
-  if (const auto* law = std::get_if<LinearElasticDefinition>(&material.law)) elasticity = &law->elasticity;
-  if (const auto* law = std::get_if<NeoHookeanDefinition>(&material.law)) elasticity = &law->elasticity;
-  if (const auto* law = std::get_if<J2PlasticityDefinition>(&material.law)) elasticity = &law->elasticity;
-  if (elasticity == nullptr) return std::nullopt;
+  const LawTraits traits = traits_of(material);
+  const std::optional<Elasticity> elasticity = elasticity_of(material.law);
+  if (!elasticity || traits.matter != Matter::solid || traits.rate_dependent) return std::nullopt;
   return ElasticConstants::of(elasticity->young, elasticity->poisson, material.density, geometry);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
 
@@ -15,18 +16,6 @@ constexpr double kFlowStrain = 1.0;     // of a material that deforms without en
 constexpr double kPressedStrain = 0.1;  // where the scene alone does not determine it
 constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
 constexpr int kSamples = 5;  // points along an axis at which a body's largest speed is sought
-
-bool flows(const MaterialDefinition& material) {
-  return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
-         std::holds_alternative<MohrCoulombDefinition>(material.law) ||
-         std::holds_alternative<MuIDefinition>(material.law) ||
-         std::holds_alternative<CamClayDefinition>(material.law) ||
-         std::holds_alternative<NorSandDefinition>(material.law) ||
-         std::holds_alternative<J2PlasticityDefinition>(material.law) ||
-         std::holds_alternative<JohnsonCookDefinition>(material.law) ||
-         std::holds_alternative<NewtonianFluidDefinition>(material.law) ||
-         std::holds_alternative<IdealGasDefinition>(material.law);
-}
 
 /// Initial motion, from the velocity at points spread over the body's bounds.
 struct Start {
@@ -145,7 +134,7 @@ ExpectedMotion expected_motion(const Scene& scene) {
   expected.turn_why =
       definition.geometry == GeometryKind::line ? "nothing turns in a line" : "no body turns at the start";
   for (const BodyDefinition& body : scene.bodies) {
-    if (!flows(material_of(body, scene))) continue;
+    if (!traits_of(material_of(body, scene)).flows) continue;
     expected.flows = true;
     expected.strain = kFlowStrain;
     expected.strain_why = fmt::format("{} flows", body.material);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "mpm/implicit/implicit_step.hpp"
-#include "mpm/implicit/soil_law.hpp"
+#include "mpm/material/law.hpp"
 #include "mpm/pace/tool_use.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/scene_warnings.hpp"
@@ -109,7 +109,8 @@ bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
   if (has_pairs(scene) || implicit_fault(after)) return false;
   const auto unmeasured = [&](const MaterialDefinition& material) {
     const auto is_of = [&](const BodyDefinition& body) { return body.material == material.name; };
-    return !measured_implicit(material) && std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of);
+    return traits_of(material).implicit != ImplicitSteps::measured &&
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of);
   };
   if (std::any_of(before.materials.begin(), before.materials.end(), unmeasured)) return false;
   const WaveStep wave = wave_step(scene);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/material/law.hpp"
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/implicit_choice.hpp"
 #include "mpm/scene/sections.hpp"
@@ -219,7 +220,7 @@ bool calm(const Map& root, bool part_of_pic, Scene& scene) {
     return true;
   }
   const auto& materials = scene.definition.materials;
-  const auto soil = [](const auto& material) { return is_soil(make_law(material)); };
+  const auto soil = [](const auto& material) { return traits_of(material).matter == Matter::soil; };
   if (part_of_pic || std::none_of(materials.begin(), materials.end(), soil)) return false;
   transfer = kTransferOfSoil;
   scene.choices.emplace_back(

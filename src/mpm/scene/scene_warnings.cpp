@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/tool_motion.hpp"
@@ -16,12 +17,6 @@ constexpr double kMostWeightStrain = 0.1;  ///< of a body under its own weight
 constexpr double kLightest = 5.0;          ///< [kg/m^3]; solids and liquids are heavier, foams among them
 constexpr double kHeaviest = 23000.0;      ///< [kg/m^3]; osmium has 22,590
 constexpr double kRoundOff = 1e-9;
-
-/// Laws whose stiffness is a constant of the material, and resists volume changes.
-bool has_own_stiffness(const LawDefinition& law) {
-  return !std::holds_alternative<IdealGasDefinition>(law) && !std::holds_alternative<CamClayDefinition>(law) &&
-         !std::holds_alternative<NorSandDefinition>(law);
-}
 
 void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
   const TimeDefinition& time = scene.definition.time;
@@ -39,7 +34,7 @@ void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
 /// rho g h over the stiffness of a bar that cannot widen, rho c^2.
 void look_at_weight(const BodyDefinition& body, const Scene& scene, std::vector<std::string>& warnings) {
   const MaterialDefinition& material = material_of(body, scene);
-  if (!has_own_stiffness(material.law)) return;
+  if (traits_of(material).stiffness_of_pressure) return;
   const Vec3& gravity = scene.definition.gravity;
   const Box bounds = body.region.bounds();
   double height = 0.0;  // g h
@@ -55,7 +50,7 @@ void look_at_weight(const BodyDefinition& body, const Scene& scene, std::vector<
 
 /// Only where something weighs: scenes without gravity may have units of their own.
 void look_at_density(const MaterialDefinition& material, std::vector<std::string>& warnings) {
-  if (std::holds_alternative<IdealGasDefinition>(material.law)) return;
+  if (traits_of(material).matter == Matter::gas) return;
   if (material.density >= kLightest && material.density <= kHeaviest) return;
   warnings.push_back(fmt::format(
       "materials.{}.density: {:.3g} kg/m^3 is {}; check its unit (1.6 is 1.6 kg/m^3, write 1.6 g/cm^3 or 1600)",
@@ -78,7 +73,7 @@ void look_at_spray(const Scene& scene, std::vector<std::string>& warnings) {
   const bool spline = method.shape == ShapeKind::bspline2 || method.shape == ShapeKind::bspline3;
   if (!spline || method.transfer.kind != TransferKind::apic) return;
   for (const BodyDefinition& body : scene.bodies) {
-    if (!std::holds_alternative<NewtonianFluidDefinition>(material_of(body, scene).law)) continue;
+    if (traits_of(material_of(body, scene)).matter != Matter::liquid) continue;
     warnings.push_back(fmt::format(
         "body '{}': with apic and {} drops that come to a wall alone gain energy without bound; take another "
         "shape, as ugimp, or another transfer, as {{fmpm: 2}}, unless the fluid stays together",

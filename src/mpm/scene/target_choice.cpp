@@ -10,6 +10,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "mpm/material/law.hpp"
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/input_file.hpp"
 #include "mpm/scene/sections.hpp"
@@ -90,17 +91,9 @@ std::vector<std::pair<Vec3, int>> fitting_cells(const Scene& scene) {
 std::optional<pace::Ground> ground_of(const SimulationDefinition& definition) {
   std::optional<pace::Ground> found;
   for (const MaterialDefinition& material : definition.materials) {
-    double friction = 1.0;
-    if (const auto* own = std::get_if<DruckerPragerDefinition>(&material.law)) {
-      friction = own->friction_angle;
-    } else if (const auto* own = std::get_if<MohrCoulombDefinition>(&material.law)) {
-      friction = own->friction_angle;
-    } else if (std::holds_alternative<J2PlasticityDefinition>(material.law)) {
-      friction = 0.0;
-    } else {
-      continue;
-    }
-    if (friction > 0.0) return pace::Ground::sand;
+    const std::optional<double> friction = friction_angle(material.law);
+    if (!friction) continue;
+    if (*friction > 0.0) return pace::Ground::sand;
     found = pace::Ground::clay;
   }
   return found;

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "mpm/material/law.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -69,15 +70,10 @@ void read_conductivity(const Value& value, const Dimension& dimension, Transport
   material.conductivity = 1.0;
 }
 
-bool has_own_temperature(const LawDefinition& law) {
-  return std::holds_alternative<JohnsonCookDefinition>(law) || std::holds_alternative<IdealGasDefinition>(law);
-}
-
 void read_heat(const Map& map, const MaterialDefinition& material, Scene& scene, TransportMaterial& heat) {
-  if (const auto* metal = std::get_if<JohnsonCookDefinition>(&material.law)) {
-    heat.capacity = metal->heat_capacity;
-  } else if (const auto* gas = std::get_if<IdealGasDefinition>(&material.law)) {
-    heat.capacity = gas->pressure / (material.density * gas->temperature * (gas->heat_capacity_ratio - 1.0));
+  const bool own_temperature = traits_of(material).own_temperature;
+  if (own_temperature) {
+    heat.capacity = std::visit([](const auto& law) { return law.heat_capacity(); }, make_law(material));
   } else {
     heat.capacity = read_property(map.at("heat_capacity"), kHeatCapacity, Transported::temperature, false);
     if (const auto part = map.find("heat_fraction")) {
@@ -91,7 +87,7 @@ void read_heat(const Map& map, const MaterialDefinition& material, Scene& scene,
     scene.choices.emplace_back(map.value().path() + ".conductivity", "0: heat stays where it arises");
   }
   if (const auto expansion = map.find("thermal_expansion")) {
-    if (has_own_temperature(material.law)) {
+    if (own_temperature) {
       expansion->fail(
           fmt::format("{} has an equation of state, which expands with heat; leave it out", law_name(material.law)));
     }
@@ -115,8 +111,7 @@ void read_solute(const Map& map, Scene&, TransportMaterial& solute) {
 }
 
 void read_pores(const Map& map, const MaterialDefinition& material, Scene& scene, TransportMaterial& pores) {
-  if (std::holds_alternative<IdealGasDefinition>(material.law) ||
-      std::holds_alternative<NewtonianFluidDefinition>(material.law)) {
+  if (traits_of(material).fluid()) {
     map.fail(fmt::format("{} has no pores; give water in pores to a solid or a soil", law_name(material.law)));
   }
   pores.capacity = map.at("storage").positive(kPerPascal);

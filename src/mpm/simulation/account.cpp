@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "mpm/material/law.hpp"
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
 #include "state.hpp"
@@ -16,11 +17,6 @@ Vec3 particle_vector(const Field& field, const GridLayout& layout, int p) {
   Vec3 v = Vec3::Zero();
   for (int k = 0; k < layout.dim(); ++k) v[layout.axis(k)] = field[k][p];
   return v;
-}
-
-/// Laws of soil: the balance of energy of their scenes has been measured.
-bool is_soil(const Law& law) {
-  return std::holds_alternative<DruckerPrager>(law) || std::holds_alternative<MohrCoulomb>(law);
 }
 
 // In one pass, since most of the time goes into fetching the particles; grouped so that the result does not depend on
@@ -160,7 +156,7 @@ const RunTotals& Simulation::State::find_totals() {
   totals.of_set.resize(sets.size());
   MaterialTotals& of_all = totals.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (!is_soil(laws[i])) totals.energy.leave_open();
+    if (traits_of(laws[i]).matter != Matter::soil) totals.energy.leave_open();
     of_all += std::visit(
         [&](const auto& law) {
           return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads, totals.of_set[i]);

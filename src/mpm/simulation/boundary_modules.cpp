@@ -7,6 +7,7 @@
 #include "mpm/boundary/leaving.hpp"
 #include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
+#include "mpm/material/law.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
 
@@ -55,8 +56,7 @@ void add_absorbing(RunParts& parts) {
     std::vector<ElasticWaves> waves;
     for (const DeformableBody& body : definition.bodies) {
       const MaterialDefinition& material = find_material(definition, body);
-      if (std::holds_alternative<CamClayDefinition>(material.law) ||
-          std::holds_alternative<NorSandDefinition>(material.law)) {
+      if (const LawTraits traits = traits_of(material); traits.stiffness_of_pressure && !traits.fluid()) {
         throw DefinitionError(fmt::format(
             "boundaries.{}: an absorbing face has the waves of the undeformed material, but those of '{}' ({}) "
             "follow its pressure; use fixed or slip farther away, or another law for the ground",

@@ -15,25 +15,17 @@ constexpr double kNotable = 1.0 * kDegree;  ///< a difference of friction angles
 
 const char* const kOtherMatch = "leave match out, or write mohr_coulomb or plane_strain";
 
-/// sin of the friction angle with which a material flows in plane strain; none for what is not a Drucker-Prager soil.
-std::optional<double> friction_in_plane(const MaterialDefinition& material) {
-  const auto* soil = std::get_if<DruckerPragerDefinition>(&material.law);
-  if (soil == nullptr) return std::nullopt;
-  return friction_in_plane_strain(*soil);
-}
-
 }  // namespace
 
 std::string refused_material(GeometryKind geometry, const MaterialDefinition& material) {
-  if (geometry == GeometryKind::plane_strain && friction_in_plane(material).value_or(0.0) >= 1.0) {
+  if (geometry == GeometryKind::plane_strain && friction_in_plane_strain(material.law).value_or(0.0) >= 1.0) {
     return fmt::format(
         "material '{}' (drucker_prager) in plane strain: with this match and {:g} degrees of friction it has no limit: "
         "whatever presses on it, it does not flow; {}",
-        material.name, std::get<DruckerPragerDefinition>(material.law).friction_angle / kDegree, kOtherMatch);
+        material.name, *friction_angle(material.law) / kDegree, kOtherMatch);
   }
   if (geometry != GeometryKind::plane_stress) return {};
-  const bool flows = std::visit([](const auto& law) { return law.kForgetsShape; }, make_law(material));
-  if (!flows) return {};
+  if (!traits_of(material).forgets_shape) return {};
   return fmt::format(
       "material '{}' ({}) in plane stress: a sheet of fluid with free faces carries no pressure; use plane_strain or "
       "solid",
@@ -41,9 +33,9 @@ std::string refused_material(GeometryKind geometry, const MaterialDefinition& ma
 }
 
 std::string material_warning(GeometryKind geometry, const MaterialDefinition& material) {
-  const std::optional<double> sine = friction_in_plane(material);
+  const std::optional<double> sine = friction_in_plane_strain(material.law);
   if (!sine) return {};
-  const double asked = std::get<DruckerPragerDefinition>(material.law).friction_angle;
+  const double asked = *friction_angle(material.law);
   if (geometry == GeometryKind::solid && *sine >= 1.0) {
     return fmt::format(
         "material '{}': with this match and {:g} degrees of friction it has no limit where it moves in a plane, as "

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mpm/kernel/select.hpp"
+#include "mpm/material/law.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -166,10 +167,6 @@ bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool
   return method.average_stress.value_or(sensible && method.update != UpdateScheme::implicit);
 }
 
-bool is_soil(const Law& law) {
-  return std::visit([](const auto& own) { return own.kSoil; }, law);
-}
-
 bool shares_stress(const SimulationDefinition& definition, const DeformableBody& body) {
   const MaterialDefinition& material = find_material(definition, body);
   const std::size_t number = &material - definition.materials.data();
@@ -177,8 +174,8 @@ bool shares_stress(const SimulationDefinition& definition, const DeformableBody&
   const bool expands = std::any_of(quantities.begin(), quantities.end(), [&](const QuantityDefinition& quantity) {
     return number < quantity.materials.size() && quantity.materials[number].expansion != 0.0;
   });
-  return std::visit([&](const auto& law) { return law.kAveragesStress && !(law.kPressureFromVolume && expands); },
-                    make_law(material));
+  const LawTraits traits = traits_of(material);
+  return traits.averages_stress && !(traits.pressure_from_volume && expands);
 }
 
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {

@@ -1,6 +1,5 @@
 #include "particle_view.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -9,20 +8,6 @@
 namespace mpm {
 namespace {
 
-Eigen::Matrix3d matrix_of(const Symmetric3<double>& s) {
-  Eigen::Matrix3d m;
-  m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
-  return m;
-}
-
-/// 1/2 ln s, s symmetric and positive.
-Symmetric3<double> half_logarithm(const Symmetric3<double>& s) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix_of(s));
-  const Eigen::Vector3d logarithms = 0.5 * solver.eigenvalues().array().log();
-  const Eigen::Matrix3d m = solver.eigenvectors() * logarithms.asDiagonal() * solver.eigenvectors().transpose();
-  return {m(0, 0), m(1, 1), m(2, 2), m(1, 2), m(0, 2), m(0, 1)};
-}
-
 /// R of F = R U, as a vector.
 Vec3 rotation_of(const Matrix3<double>& f) {
   Eigen::Matrix3d m;
@@ -30,50 +15,6 @@ Vec3 rotation_of(const Matrix3<double>& f) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()));
   return turn.angle() * turn.axis();
-}
-
-/// Constants by which elastic strain follows from stress.
-struct PartsOf {
-  SetView& view;
-
-  void rate(const Elasticity& elasticity) const {
-    view.parts = SetView::Parts::rate;
-    view.bulk = elasticity.bulk();
-    view.shear = elasticity.shear();
-  }
-  void isochoric(double shear) const {
-    view.parts = SetView::Parts::isochoric;
-    view.shear = shear;
-  }
-  void operator()(const DruckerPragerDefinition& law) const { rate(law.elasticity); }
-  void operator()(const MohrCoulombDefinition& law) const { rate(law.elasticity); }
-  void operator()(const MuIDefinition& law) const { rate(law.elasticity); }
-  void operator()(const J2PlasticityDefinition& law) const { isochoric(law.elasticity.shear()); }
-  void operator()(const JohnsonCookDefinition& law) const {
-    isochoric(law.shear_modulus);
-    view.heat_capacity = law.heat_capacity;
-  }
-  void operator()(const IdealGasDefinition& law) const {
-    view.heat_capacity = law.pressure / (view.density * law.temperature * (law.heat_capacity_ratio - 1.0));
-  }
-  template <class Elastic>
-  void operator()(const Elastic&) const {}
-};
-
-Symmetric3<double> elastic_strain(const SetView& set, const ParticleView& particle) {
-  if (const auto* clay = std::get_if<CamClay>(&set.law)) return clay->elastic_strain(particle.cauchy, particle.j);
-  if (const auto* sand = std::get_if<NorSand>(&set.law)) return sand->elastic_strain(particle.cauchy);
-  if (set.parts == SetView::Parts::rate) {
-    const double mean = trace(particle.cauchy) / 3.0;
-    return scale_shift(particle.cauchy, 0.5 / set.shear, mean * (1.0 / (3.0 * set.bulk) - 0.5 / set.shear));
-  }
-  if (set.parts == SetView::Parts::isochoric) {
-    const double scale = set.density / set.shear;
-    const Symmetric3<double> deviator = scale_shift(particle.tau, scale, -scale * trace(particle.tau) / 3.0);
-    const Symmetric3<double> b = scale_shift(deviator, 1.0, 1.0 + isochoric_excess(deviator));
-    return scale_shift(half_logarithm(b), 1.0, std::log(particle.j) / 3.0);
-  }
-  return particle.total;
 }
 
 }  // namespace
@@ -89,9 +30,9 @@ SetView::SetView(const ParticleSet& particles, const Law& the_law, const Materia
         temperature = l.kTemperature;
         reference_temperature = l.reference_temperature();
         heat_fraction = l.heat_fraction();
+        heat_capacity = l.heat_capacity();
       },
       law);
-  std::visit(PartsOf{*this}, material.law);
 }
 
 void ParticleView::look(int particle, unsigned needs) {
@@ -103,7 +44,9 @@ void ParticleView::look(int particle, unsigned needs) {
   j = tensors.j;
   if ((needs & (kNeedsStress | kNeedsElastic)) != 0) cauchy = scale_shift(tau, set.density / j, 0.0);
   if ((needs & (kNeedsStrain | kNeedsElastic)) != 0) total = half_logarithm(left_cauchy_green(f));
-  if ((needs & kNeedsElastic) != 0) elastic = elastic_strain(set, *this);
+  if ((needs & kNeedsElastic) != 0) {
+    elastic = std::visit([&](const auto& law) { return law.elastic_strain({cauchy, tau, total, j}); }, set.law);
+  }
   if ((needs & kNeedsRotation) != 0) rotation = rotation_of(f);
 }
 

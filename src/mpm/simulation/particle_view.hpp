@@ -46,10 +46,7 @@ struct SetView {
   int plastic_strain = -1, plastic_work = -1, temperature = -1;  ///< which history scalar
   double reference_temperature = 0.0;                            ///< [K]
   double heat_fraction = 0.0;
-  double heat_capacity = 0.0;                  ///< at constant volume [J/(kg K)]; 0: the law has none
-  enum class Parts { none, rate, isochoric };  ///< how elastic strain follows from stress
-  Parts parts = Parts::none;
-  double bulk = 0.0, shear = 0.0;  ///< [Pa], for that
+  double heat_capacity = 0.0;  ///< at constant volume [J/(kg K)]; 0: the law has none
 };
 
 struct ParticleView {

@@ -103,7 +103,7 @@ struct DeformableBody {
   bool yy_follows = false;
   std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
-  double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
+  double particle_volume = 0.0;  ///< volume of a particle at the start [m^3]; for rings the area of their section [m^2]
   std::vector<double> parts;     ///< part of it that each particle has; empty where each has all of it
   /// Distance of each particle's centre from the surface of the body beside it, over the reach of its box (or 1 away
   /// from it): so far contact sees it reach. Empty where that is 1 for each.

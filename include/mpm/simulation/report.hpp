@@ -48,7 +48,7 @@ struct StepReport {
   double courant =
       0.0;  ///< largest part of a cell that a wave was seen to cross in a step; above 1 steps were too long
   std::uint64_t divided = 0;  ///< sync periods whose steps were made shorter on the way
-  std::string limited_by;     ///< what and where: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
+  std::string limited_by;     ///< cause and place: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
 };
 
 /// An explicit crack. Lists have an entry for each point of its chain.
@@ -64,7 +64,7 @@ struct CrackReport {
 struct CrackTipReport {
   std::string crack, end;                                ///< the crack's name; "start" or "end" of its chain
   Vec3 place = Vec3::Zero(), direction = Vec3::UnitX();  ///< world [m]; of growth straight on
-  std::string state, growth, material;           ///< state of J; reason of growth or none; material of the constants
+  std::string state, growth, material;           ///< state of J; reason why it grew or not; material of constants
   double j = 0.0, zone = 0.0;                    ///< at the tip; work of tractions behind it [J/m^2]
   double k_one = 0.0, k_two = 0.0;               ///< [Pa sqrt(m)]
   double opening = 0.0, slip = 0.0;              ///< opening and slip of the faces next to it [m]

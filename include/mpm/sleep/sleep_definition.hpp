@@ -1,4 +1,4 @@
-// What a scene says of the sleep of material at rest.
+// Definition in a scene of the sleep of material at rest.
 #pragma once
 
 namespace mpm {

@@ -45,7 +45,7 @@ class WrenchFilter {
     return result;
   }
 
-  double in_ = 0.0;                 ///< of the present sample and of the one before the last; of the last twice that
+  double in_ = 0.0;                 ///< weight of the present sample and the last but one; the last has twice that
   double out1_ = 0.0, out2_ = 0.0;  ///< weights of the last result and of the one before it
   Memory force_, torque_;
 };

@@ -1,4 +1,4 @@
-// What the tips of cracks need of the material in which they lie: a law that has J, constants for the criterion of
+// Needs of the tips of cracks in the material in which they lie: a law that has J, constants for the criterion of
 // growth, and room for the contour of J.
 // Source: crack reference 4.1, 5.2.
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ bool has_strain_energy(const LawDefinition& law) {
          std::holds_alternative<StandardLinearSolidDefinition>(law);
 }
 
-/// Of materials whose stress intensities follow from J: isotropic, elastic but for what yields near the tip.
+/// Constants of materials whose stress intensities follow from J: isotropic, elastic but for what yields near the tip.
 std::optional<ElasticConstants> constants_of(const MaterialDefinition& material, GeometryKind geometry) {
   const Elasticity* elasticity = nullptr;
   if (const auto* law = std::get_if<LinearElasticDefinition>(&material.law)) elasticity = &law->elasticity;

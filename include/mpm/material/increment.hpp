@@ -24,7 +24,7 @@ struct LawTraits {
   static constexpr int kPlasticWork = -1;    ///< index of the dissipated work [J/kg], or -1
   static constexpr int kTemperature = -1;    ///< index of temperature minus reference temperature [K], or -1
   static constexpr int kHardening = -1;      ///< index of what initial_hardening() gives, or -1
-  /// Whether only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid
+  /// True if only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid
   /// shears without end, and det F of its whole deformation would be a small difference of large numbers.
   static constexpr bool kForgetsShape = false;
   /// True for a law of soil: grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).

@@ -107,7 +107,7 @@ void sample_chain(const Sampler& sampler, const std::vector<const Piece*>& chain
     return !narrow && (place - corner).norm() < clearance * (1.0 - kRound);
   };
   std::size_t i = 0;
-  double start = 0.0;  // of piece i along the chain
+  double start = 0.0;  // start of piece i along the chain
   for (int k = 0; k < count; ++k) {
     const double along = before + (k + 0.5) / count * used;
     while (i + 1 < chain.size() && along >= start + chain[i]->length()) start += chain[i++]->length();

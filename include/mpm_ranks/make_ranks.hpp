@@ -21,7 +21,7 @@ struct Traffic {
   std::uint64_t shared = 0;       ///< bytes that this rank gave to those
 };
 
-/// End of ranks of a test, which are no processes.
+/// Error that ends the ranks of a test, which are no processes.
 class RanksEnded : public RanksError {
  public:
   RanksEnded(const std::string& reason, int code) : RanksError(reason), code_(code) {}

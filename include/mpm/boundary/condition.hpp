@@ -31,7 +31,7 @@ class ConditionError : public ModuleError {
   using ModuleError::ModuleError;
 };
 
-/// Definition in a scene of one condition.
+/// Definition of one condition in a scene.
 struct ConditionDefinition {
   /// Its name, surface, pose at the start and motion; friction and reach have no part.
   RigidBodyDefinition region;

@@ -100,7 +100,7 @@ class RigidContact final : public Stage, public ContactReporter {
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< nodes of each block in near_
   std::vector<HeldNodes> held_;           ///< held nodes of each field
-  std::vector<std::uint8_t> centred_;     ///< marks of each field
+  std::vector<std::uint8_t> centred_;     ///< for each field, 1 if normals are those at its mass centres
   ContactLedger ledger_;
   HeatSink* heat_;
   int touching_ = 0;

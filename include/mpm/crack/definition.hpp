@@ -1,4 +1,4 @@
-// Definition in a scene of its explicit cracks: lines in the plane across which material has no strength.
+// Definition of the explicit cracks of a scene: lines in the plane across which material has no strength.
 // Source: Nairn (2003), Material point method calculations with explicit cracks; NairnMPM's manual, Cracks.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Definition in a scene of how cracks grow: criteria, directions and the constants of materials. J and G in J/m^2, K in
-// Pa sqrt(m), openings in m.
+// Definition of the growth of cracks in a scene: criteria, directions and the constants of materials. J and G in J/m^2,
+// K in Pa sqrt(m), openings in m.
 // Source: NairnMPM's manual, Propagate, AltPropagate, PropagateLength.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Definition in a scene of tractions between the faces of a crack: a law of the opening, such as that of a glue or of
+// Definition of tractions between the faces of a crack: a law of the opening, such as that of a glue or of
 // fibres that bridge the crack. Stresses in Pa, openings in m.
 // Source: GIMP notes 3.2; NairnMPM's manual, Traction Laws.
 #pragma once

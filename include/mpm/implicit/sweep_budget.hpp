@@ -86,7 +86,7 @@ class SweepBudget {
   double end_ = 0.0;        ///< end of the sync period, simulated [s]
   Clock::time_point begun_, deadline_;
   bool swept_ = false;                     ///< in this sync period
-  Clock::time_point sweeps_at_, done_at_;  ///< begin of a step's sweeps, and end of the last ones
+  Clock::time_point sweeps_at_, done_at_;  ///< start of a step's sweeps, end of the last ones'
   double for_sweeps_ = 0.0;                ///< time of this step's sweeps [s]
   bool ended_here_ = false;                ///< the sweeps of this step, by the budget
   // Foreseen [s]; 0 before the first.

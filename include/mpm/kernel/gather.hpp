@@ -73,7 +73,7 @@ template <class T, int Dim, int kNodes, bool Rings>
 struct LaneWeights {
   using W = Wide<T>;
   W s[Dim][kNodes], g[Dim][kNodes];
-  W t[Rings ? kNodes : 1];  ///< hoop weight of an axisymmetric shape function
+  W t[Rings ? kNodes : 1];  ///< values T of an axisymmetric shape function
   W here = W(1.0);          ///< 1 on a line, which has no axis across its only row: 0 where a lane is of another part
   LaneWeights(const Weights<T, Dim, kNodes, Rings>& w, int q) {
     for (int k = 0; k < Dim; ++k) {

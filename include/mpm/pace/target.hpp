@@ -32,7 +32,7 @@ struct Target {
   std::optional<int> symmetric;
   std::optional<ToolUse> use;      ///< use of all tools, as the scene says it
   std::optional<double> length;    ///< that cells count across, as the scene says it [m]
-  double most_error = kMostError;  ///< most that a choice for a pace may have; infinite where no error is known
+  double most_error = kMostError;  ///< largest error of a choice for a pace; infinite where no error is known
   double extent = 0.0;             ///< extent of the smallest tool, where no length is known otherwise [m]
   /// Settings of a scene for which the choice was made before, "key=value"; it is not made anew.
   std::optional<std::vector<std::string>> chosen;

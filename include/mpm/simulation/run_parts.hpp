@@ -43,7 +43,7 @@ struct RunParts {
   const std::vector<Law>& laws;    ///< one for each set
   std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
   NodeChoice* choice;              ///< choice of fields by particles near cracks; null without cracks
-  Communicator* ranks;             ///< communicator of a run over several ranks; else null, and `halo` too
+  Communicator* ranks;             ///< communicator of a run over several ranks; else null, as `halo` is
   Halo* halo;
   int threads;
   Isa isa;

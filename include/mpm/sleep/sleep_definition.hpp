@@ -1,4 +1,4 @@
-// Definition in a scene of the sleep of material at rest.
+// Definition of the sleep of material at rest in a scene.
 #pragma once
 
 namespace mpm {

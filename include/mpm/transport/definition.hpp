@@ -1,4 +1,4 @@
-// Definition in a scene of transport: which quantities particles carry beside their motion, the materials' constants,
+// Definition of transport in a scene: which quantities particles carry beside their motion, the materials' constants,
 // and what holds, feeds and drains the quantities. All obey one equation (GIMP notes, chapter 6),
 //
 //   C dT/dt = -div q + s,   q = -K grad T,

@@ -1,4 +1,4 @@
-// Faults and notes, for the log and for /diagnostics: two statuses, `commands` and `solver`.
+// Faults, and what else should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
 //
 // solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
 // is nearly crushed, particles left the grid and were put back, the wall clock is not kept up with, time.budget is too
@@ -48,14 +48,14 @@ struct CommandHealth {
   std::uint64_t unstamped = 0;           ///< on stamped topics, with stamp zero: applied at the next sync point
   std::uint64_t past = 0;                ///< with a stamp that was past: the same
   std::uint64_t waiting = 0;             ///< commands whose time is to come
-  std::uint64_t most_waiting = 0;        ///< largest number of a body; more with stamps to come are refused
+  std::uint64_t most_waiting = 0;        ///< most of these of a body; more with stamps to come are refused
   double horizon = 0.0;                  ///< [s] ahead of the simulation; stamps beyond are refused
   std::uint64_t dropped = 0;             ///< that more came than could be kept: without effect
   std::uint64_t missing = 0;             ///< that did not come, by the gaps in header.seq
   std::uint64_t transforms_dropped = 0;  ///< messages of tf
 };
 
-/// State of the keeping of a body within its limits.
+/// State of a body that is kept within its limits.
 struct LimitHealth {
   std::uint64_t limited = 0;  ///< commands that were not followed as fast as they asked
   double behind = 0.0;        ///< distance to a pose whose time has come [m]

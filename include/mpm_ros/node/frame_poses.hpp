@@ -39,7 +39,7 @@ class FramePoses {
 
   std::vector<FrameStart> starts_;
   std::vector<int> bodies_;       ///< body of the scene, for each start
-  std::vector<std::string> set_;  ///< settings of each start
+  std::vector<std::string> set_;  ///< setting of each start's pose; empty without one
 };
 
 template <typename Look>

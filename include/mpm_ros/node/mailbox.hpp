@@ -14,7 +14,7 @@ namespace mpm_ros {
 
 class Mailbox {
  public:
-  /// Turn of a work when several wait; at_once: first, and work that takes long ends for it.
+  /// Turn of a piece of work when several wait; at_once: first, and work that takes long ends for it.
   enum class Turn { last, first, at_once };
   /// Hands over `work` and waits until it is done. False, with the work not done, once closed, or where the solver's
   /// thread has been busy for kBusyPatience. Not from the thread that calls run_until().

@@ -41,7 +41,7 @@ class Pacer {
   const double factor_;
   double period_;            // [ns] of the wall's clock
   Clock::time_point start_;  // deadlines are counted from here, so that no rounding adds up
-  Clock::time_point begun_;  // begin of the period that is computed now
+  Clock::time_point begun_;  // start of the period that is computed now
   std::int64_t count_ = 0;   // number of deadlines since start_
   std::uint64_t overruns_ = 0, given_up_ = 0;
   Clock::duration last_delay_{};

@@ -32,7 +32,7 @@ struct NumberStatistics {
   std::vector<Figure> figures;             ///< figures that are reported for it
   Extreme peak;                            ///< largest of an interval
   mpm::Vec3 integral = mpm::Vec3::Zero();  ///< over time
-  mpm::Vec3 end = mpm::Vec3::Zero();       ///< end of the last interval
+  mpm::Vec3 end = mpm::Vec3::Zero();       ///< value of the last interval
 };
 
 /// Contact of a rigid body with the material, or between two deformable bodies; world axes.

@@ -33,7 +33,7 @@ void try_summary(const std::string& path);
 void try_folder(const std::string& option, const std::string& folder);
 /// Reads where a part of the bag ends: "500 MB" or "10 s". @throws mpm::SceneError
 void read_split(const std::string& text, BagOptions& bag);
-/// Keeps what the run has recorded before it goes on. @throws mpm::SceneError for a name that holds it
+/// Checks that a run that goes on keeps what it has recorded. @throws mpm::SceneError for a name that holds it
 void check_not_there(const RunSceneOptions& options);
 
 }  // namespace mpm_ros

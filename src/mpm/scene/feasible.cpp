@@ -52,7 +52,7 @@ double least_bytes(const Scene& scene) {
 WaveStep wave_step(const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
   WaveStep step;
-  if (definition.method.update == UpdateScheme::implicit) {  // leaves out steps that resolve no waves
+  if (definition.method.update == UpdateScheme::implicit) {  // resolves no waves
     step.dt = std::numeric_limits<double>::infinity();
     return step;
   }

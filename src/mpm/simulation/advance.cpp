@@ -102,7 +102,7 @@ void Simulation::State::run_period() {
   StepLimit seen = material_limit;
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
-  double part_begin = begin;  // begin of those steps
+  double part_begin = begin;  // start of those steps
   bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
     const bool more = k + 1 < steps_ahead.number;

@@ -27,7 +27,7 @@ double travel_of(const AppliedCommand& command, const mpm::Simulation& simulatio
   const mpm::GeometryKind geometry = simulation.definition().geometry;
   if (command.kind == CommandKind::wrench) {
     const mpm::FreeMotion* free = body.free_motion();
-    if (free == nullptr) return 0.0;  // ends for a command that the body refuses
+    if (free == nullptr) return 0.0;  // refused by the body
     const mpm::FreeDefinition& of = free->definition();
     double acceleration = 0.0;  // gain of a period, which it may travel in the next
     for (int k = 0; k < 3; ++k) {

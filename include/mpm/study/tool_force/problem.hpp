@@ -25,7 +25,7 @@ struct Setup {
   std::string law = {};  ///< "mohr_coulomb", "drucker_prager/plane_strain" with its match; the problem's own when empty
 };
 
-/// Kind of knowledge of the force.
+/// Kind of answer that is known for the force.
 enum class Known {
   exact,
   bounds,   ///< it lies between two values

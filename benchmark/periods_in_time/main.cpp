@@ -1,7 +1,7 @@
-// How much of the time a controller has its wrench in time: the simulator runs in real time, and this node takes the
-// wrench on a tool at every sync point, as a controller does. It prints the share of sync periods that were computed in
-// time, by the simulator's own count, how unevenly the wrenches came, and what a time.budget did. ~load: part of each
-// core that other work takes.
+// Part of the time in which a controller has its wrench in time: the simulator runs in real time, and this node takes
+// the wrench on a tool at every sync point, as a controller does. It prints the share of sync periods that were
+// computed in time, by the simulator's own count, how unevenly the wrenches came, and what a time.budget did. ~load:
+// part of each core that other work takes.
 //
 //   roslaunch benchmark/periods_in_time/periods_in_time.launch
 //   roslaunch benchmark/periods_in_time/implicit.launch budget:="6 ms" load:=0.6
@@ -81,7 +81,7 @@ class Controller {
   ros::Time before_;
   std::uint64_t first_ = 0, last_ = 0;  // overruns
   std::uint64_t first_step_ = 0, steps_ = 0, cut_ = 0;
-  std::vector<double> sweeps_, errors_;  // of the last step of each period
+  std::vector<double> sweeps_, errors_;  // values of the last step of each period
 };
 
 }  // namespace

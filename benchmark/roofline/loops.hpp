@@ -8,7 +8,7 @@ namespace roofline {
 
 struct Loops {
   const char* isa;
-  bool (*available)();  ///< whether this processor has the instruction set
+  bool (*available)();  ///< true if this processor has the instruction set
   int doubles;          ///< doubles in a register
   /// Runs `turns` iterations of independent multiply-adds. Returns their count, of numbers rather than registers.
   double (*multiply_add_double)(long turns);

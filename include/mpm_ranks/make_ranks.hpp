@@ -13,7 +13,7 @@
 
 namespace mpm {
 
-/// What a rank has sent since it was made.
+/// Traffic that a rank has sent since it was made.
 struct Traffic {
   std::uint64_t messages = 0;     ///< to single ranks
   std::uint64_t bytes = 0;        ///< in them
@@ -21,7 +21,7 @@ struct Traffic {
   std::uint64_t shared = 0;       ///< bytes that this rank gave to those
 };
 
-/// How ranks of a test end, which are no processes.
+/// Error that ends the ranks of a test, which are no processes.
 class RanksEnded : public RanksError {
  public:
   RanksEnded(const std::string& reason, int code) : RanksError(reason), code_(code) {}
@@ -39,7 +39,8 @@ std::shared_ptr<Communicator> make_ranks();
 /// Processes that this one starts from now on are alone, whatever launcher has started this one.
 void forget_launcher();
 
-/// Of what runs in one process only, by its name. @throws RanksError where a launcher has started several
+/// Refuses ranks for what runs in one process only, by its name. @throws RanksError where a launcher has started
+/// several
 void refuse_ranks(const std::string& what);
 
 /// For a rank that cannot go on, while others may wait for it. `reason`: a line for stderr. Where all ranks come here
@@ -48,10 +49,10 @@ void refuse_ranks(const std::string& what);
 /// @throws RanksEnded if the ranks are not those of make_ranks() but a test's
 int end_all(const Communicator& ranks, const std::string& reason, int code);
 
-/// How many threads a rank may take so that those of the same machine do not stand in each other's way.
+/// Number of threads a rank may take so that those of the same machine do not stand in each other's way.
 int threads_of_rank(const Communicator& ranks);
 
-/// Of ranks that make_ranks() made.
+/// Traffic of ranks that make_ranks() made.
 Traffic sent(const Communicator& ranks);
 
 }  // namespace mpm

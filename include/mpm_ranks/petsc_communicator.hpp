@@ -31,9 +31,9 @@ class PetscCommunicator final : public Communicator {
   std::unique_ptr<Copies> make_copies(int rows, const std::vector<Source>& sources) override;
 
   const Traffic& sent() const;
-  /// Whether all ranks call this within so long [s]; whatever else they do in the meantime.
+  /// True if all ranks call this within so long [s]; whatever else they do in the meantime.
   bool all_come(double seconds) const;
-  /// How many threads it may take beside the ranks on the same machine.
+  /// Number of threads that it may take beside the ranks on the same machine.
   int threads() const;
 
  private:

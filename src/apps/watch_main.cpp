@@ -39,7 +39,7 @@
 
 namespace {
 
-constexpr double kPatience = 2.0;  ///< of a wait for particles that nothing is said about [s]
+constexpr double kPatience = 2.0;  ///< time of a wait for particles that nothing is said about [s]
 
 std::filesystem::path fitted_path() {
   const char* ros_home = std::getenv("ROS_HOME");
@@ -117,7 +117,7 @@ class Colourist {
   ros::Subscriber subscriber_;
 };
 
-/// Whether RViz is given this word of the command line too: names of topics and namespaces, but neither a parameter of
+/// True if RViz is given this word of the command line too: names of topics and namespaces, but neither a parameter of
 /// watch nor its name and log, since two nodes of one name end each other.
 bool for_rviz(const std::string& word) {
   if (word.find(":=") == std::string::npos) return false;

@@ -8,7 +8,7 @@
 namespace mpm {
 namespace {
 
-/// What went wrong last, where PETSc found it first: it calls the handler in every function on the way out, too.
+/// Error of the last call, where PETSc found it first: it calls the handler in every function on the way out, too.
 std::string& last_error() {
   static std::string text;
   return text;

@@ -29,7 +29,7 @@ class PetscSession {
   MPI_Comm all_ = MPI_COMM_NULL, ends_ = MPI_COMM_NULL;
 };
 
-/// Who reads which row of whom.
+/// Table of which rank reads which row of which other one.
 class StarForest {
  public:
   explicit StarForest(MPI_Comm all) { check(PetscSFCreate(all, &forest_)); }

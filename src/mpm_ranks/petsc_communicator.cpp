@@ -25,7 +25,7 @@ constexpr int kGathered = 1 << 16;
 
 std::size_t pieces(std::uint64_t bytes) { return (bytes + kPiece - 1) / kPiece; }
 
-/// What a rank hears of a parcel: its bytes, and the piece of the sender's that it begins with.
+/// Notice of a parcel to a rank: its bytes, and the piece of the sender's that it begins with.
 struct Notice {
   std::uint64_t bytes, first;
 };

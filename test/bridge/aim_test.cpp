@@ -81,7 +81,7 @@ TEST_F(AimTest, ASceneWithoutATargetIsLeftAsItIs) {
 
 // The node says these lines too, before its first run.
 TEST_F(AimTest, SaysWhatWasChosenWhatItExpectsAndHowToRepeatIt) {
-  // Of a pace that every machine keeps: the least error there are figures for.
+  // Least error that there are figures for, of a pace that every machine keeps.
   const Aim easy = aim_at("target.real_time=1e-6");
   ASSERT_EQ(easy.news.size(), 2U);
   EXPECT_EQ(easy.news[0].find("target real_time: 1e-06: cell "), 0U) << easy.news[0];
@@ -92,7 +92,7 @@ TEST_F(AimTest, SaysWhatWasChosenWhatItExpectsAndHowToRepeatIt) {
       << easy.news[1];
   EXPECT_TRUE(easy.warnings.empty());
   EXPECT_NE(easy.table.find("chosen "), std::string::npos) << easy.table;
-  // What it repeats is what was chosen.
+  // Repeats what was chosen.
   const mpm::Scene by_hand = mpm::load_scene(options_.scene, *easy.scene.target->chosen);
   EXPECT_EQ(by_hand.definition.grid.cell, easy.scene.definition.grid.cell);
   EXPECT_EQ(by_hand.definition.method.precision, easy.scene.definition.method.precision);

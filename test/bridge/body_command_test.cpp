@@ -82,7 +82,7 @@ TEST_F(TooFast, APoseOfMoreThanACellInASyncPeriodIsAJump) {
   EXPECT_EQ(jump_of(command_, simulation_), "");
   command_.pose.position.z() += 0.02 * 0.01;
   const std::string jump = jump_of(command_, simulation_);
-  EXPECT_EQ(jump.substr(0, 27), "'plate' jumps 2.01 cells, f") << jump;  // how far, from where, where to
+  EXPECT_EQ(jump.substr(0, 27), "'plate' jumps 2.01 cells, f") << jump;  // distance, start and goal
   EXPECT_NE(jump.find("rom (0.1, 0, 0.065) to (0.1, 0, 0.0851) m"), std::string::npos) << jump;
   expect_taken();  // accepted and carried out
   command_.kind = CommandKind::velocity;

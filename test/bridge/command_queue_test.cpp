@@ -1,4 +1,5 @@
-// When a command takes effect, in which order, and which other commands it ends. Sync points are 10 ns apart here.
+// Time at which a command takes effect, in which order, and which other commands it ends. Sync points are 10 ns apart
+// here.
 #include "mpm_ros/command/command_queue.hpp"
 
 #include <gtest/gtest.h>

@@ -185,7 +185,7 @@ TEST(Conversions, SolverStateKeepsItsNumbers) {
   state.energy.add("friction", mpm::NamedEnergy::Kind::dissipated, 3.5);
   state.energy.add("pair_friction", mpm::NamedEnergy::Kind::dissipated, 4.5);
   state.energy.add("interface", mpm::NamedEnergy::Kind::stored, 5.5);
-  state.energy.add("heat", mpm::NamedEnergy::Kind::stored, 1.5);  // of a module that no list knows
+  state.energy.add("heat", mpm::NamedEnergy::Kind::stored, 1.5);  // energy of a module that no list knows
   state.numbers.push_back({"returned", "1", 6.0});
   state.audit.impulses.push_back({"gravity", {0.0, 0.0, -9.0}});
   const SolverState message = to_message(state);

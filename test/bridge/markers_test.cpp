@@ -74,7 +74,7 @@ TEST(ForceMarkers, TheSizeStaysBelowTheTopOfTheDomain) {
     return ForceMarkers(0.1, 1.0, ceiling).markers({contact()}, "world", ros::Time()).markers[2].pose.position;
   };
   EXPECT_DOUBLE_EQ(place(5.0).z, 4.15);
-  EXPECT_DOUBLE_EQ(place(5.0).x, 4.0);  // of the arrow's head
+  EXPECT_DOUBLE_EQ(place(5.0).x, 4.0);  // place of the arrow's head
   EXPECT_DOUBLE_EQ(place(3.0).z, 3.0);
   EXPECT_GT(place(3.0).x, 4.5);  // beside it
 }

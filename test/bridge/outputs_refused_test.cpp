@@ -1,4 +1,4 @@
-// What run_scene cannot mean, or write to, is refused before it runs, also by --explain; a bag that is removed under it
+// Refusal of what run_scene cannot mean, or write to, before it runs, also by --explain; a bag that is removed under it
 // is noticed.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -146,7 +146,7 @@ TEST(OutputsRefused, ABagThatIsRemovedEndsTheRun) {
   EXPECT_EQ(open_files(), before);
 }
 
-// What a folder for tables or pictures holds already may be a link to something else. The first files are opened before
+// Files in a folder for tables or pictures may be links to something else. The first are opened before
 // the run, those of a snapshot in it.
 TEST(OutputsRefused, LinksToDevicesInFolders) {
   const TemporaryFolder folder;

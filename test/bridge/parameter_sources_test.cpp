@@ -1,4 +1,4 @@
-// What the node says of the origin of its parameters, and which namespaces have a run.
+// Text of the node on the origin of its parameters, and the namespaces that have a run.
 #include "mpm_ros/node/parameter_sources.hpp"
 
 #include <gtest/gtest.h>

@@ -57,7 +57,7 @@ TEST(ParameterText, TextCountsAsTheNumberTheTruthOrTheListThatItSays) {
   EXPECT_EQ(with("command_timeout", "1e-1").command_timeout, 0.1);
   EXPECT_EQ(with("particle_rate", "2e1").particle_rate, 20.0);
   EXPECT_EQ(with("threads", "3").threads, 3);
-  EXPECT_EQ(with("threads", 1e0).threads, 1);  // what roscpp makes of 1e0 on a command line
+  EXPECT_EQ(with("threads", 1e0).threads, 1);  // value that roscpp makes of 1e0 on a command line
   EXPECT_TRUE(with("start_paused", "True").start_paused);
   EXPECT_EQ(with("set", "gravity=[0, 0, -1.62]").set, List{"gravity=[0, 0, -1.62]"});
   const mpm::Box box{{0.0, -1.0, 0.0}, {1.0, 1.0, 0.1}};
@@ -72,7 +72,7 @@ TEST(ParameterText, TextCountsAsTheNumberTheTruthOrTheListThatItSays) {
   }
   EXPECT_THROW(with("threads", "1.5"), ParameterError);
   EXPECT_THROW(with("start_paused", "yess"), ParameterError);
-  EXPECT_THROW(with("diagnostic_period", "1e0"), ParameterError);  // which another library reads, as 1 s
+  EXPECT_THROW(with("diagnostic_period", "1e0"), ParameterError);  // text that another library reads, as 1 s
 }
 
 }  // namespace parameter_text_test

@@ -282,7 +282,7 @@ TEST(FromBag, EndsInTheRecordedState) {
   EXPECT_NE(third.out.find("equal to the recorded one"), std::string::npos) << third.out;
 }
 
-// Where the clock has ended sweeps the recording says after how many, and these are made again.
+// Repeats the sweeps that the recording says were made before the clock ended them.
 TEST(FromBag, SweepsEndWhereABudgetHasEndedThem) {
   const TemporaryFolder folder;
   RunSceneOptions options;

@@ -34,7 +34,7 @@ class ReportPlotsTest : public ::testing::Test {
     return WEXITSTATUS(std::system(fmt::format("{} {} {} 2>{}", kScript, csv_, arguments, errors_).c_str()));
   }
 
-  /// Whether more than a hundredth of a picture is not white, with more than one colour.
+  /// True if more than a hundredth of a picture is not white, with more than one colour.
   static bool shows_something(const std::string& picture) {
     const std::string look =
         "import sys, matplotlib.image as i; p = i.imread(sys.argv[1])[..., :3]; w = p.min(axis=2) < 0.95; "

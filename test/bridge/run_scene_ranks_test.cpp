@@ -23,7 +23,7 @@ namespace run_scene_ranks_test {
 
 namespace fs = std::filesystem;
 
-/// What a rank has said, and its result.
+/// Output of a rank, and its result.
 struct Said {
   std::string out, err;
   RunSceneResult result = RunSceneResult::done;
@@ -63,7 +63,7 @@ class RunSceneOverRanks : public ::testing::Test {
     });
     return said;
   }
-  /// What ends all ranks. `code`: with which exit code.
+  /// Reason that ends all ranks. `code`: with which exit code.
   std::string reason(int count, int* code = nullptr) const {
     try {
       run(count);
@@ -130,7 +130,7 @@ std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What is between quotes after `before`, in the order of the text.
+/// Texts between quotes after `before`, in the order of the text.
 std::vector<std::string> quoted(const std::string& text, const std::string& before) {
   std::vector<std::string> found;
   for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
@@ -326,7 +326,7 @@ TEST_F(RunSceneOverRanks, FailsOnAllWithTheParticleOfOneAndLeavesACheckpoint) {
   for (const Said& told : run(2)) EXPECT_EQ(told.result, RunSceneResult::physics_failed);
 }
 
-// What is not a number in the middle of a step is found on one rank, while others wait: the physics failed all the
+// Finds on one rank what is not a number in the middle of a step, while others wait: the physics failed all the
 // same.
 TEST_F(RunSceneOverRanks, EndsAllWhereTheStepOfOneFails) {
   options_.set = {"loads=[{body_force: {acceleration: [\"x > 0.12 && t > 0.01 ? log(0 - 1) : 0\", 0]}}]"};

@@ -62,7 +62,7 @@ TEST(StartLine, NamesFramesClockAndRecordedCommands) {
   EXPECT_EQ(start_line(facts),
             "blade_in_soil: 40640 particles, 0.5 of real time, 2 threads, in /mpm; runs until it is stopped; 'hand' "
             "waits for the tf frame 'tool0'; publishes /clock");
-  facts.commands = "run.bag";  // which move it in place of the frame
+  facts.commands = "run.bag";  // commands move it in place of the frame
   EXPECT_EQ(start_line(facts),
             "blade_in_soil: 40640 particles, 0.5 of real time, 2 threads, in /mpm; runs until it is stopped; commands "
             "come from run.bag; publishes /clock");

@@ -123,7 +123,7 @@ TEST(View, DrawsSmallParticlesOfPlanarScenesFlat) {
   std::stringstream text;
   text << file.rdbuf();
   const auto style = [&](bool planar, double size) {
-    View view;  // what it shows has a radius of 1 / 2.4 m
+    View view;  // shows a radius of 1 / 2.4 m
     view.planar = planar;
     view.particle_size = size;
     for (const YAML::Node& display :

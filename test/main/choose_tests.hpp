@@ -1,4 +1,4 @@
-// Which cases of a test program run, by its arguments; the rest is GoogleTest's.
+// Choice of the cases of a test program that run, by its arguments; the rest is GoogleTest's.
 #pragma once
 
 /// Reads what GoogleTest left of the arguments: --file=NAME, only the cases of the source file NAME_test.cpp. Long

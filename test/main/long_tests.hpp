@@ -1,4 +1,4 @@
-// Which cases are long: `scripts/test --full` alone runs them.
+// List of the long cases: `scripts/test --full` alone runs them.
 #pragma once
 
 #include <string>

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     return mpm::end_all(ranks, fmt::format("rank {} fails on purpose", ranks.rank()), 3);
   }
   if (way == "end_all") ranks.sum(1.0);
-  // What goes right is told once.
+  // Tells once what goes right.
   if (!ranks.first()) testing::GTEST_FLAG(brief) = true;
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

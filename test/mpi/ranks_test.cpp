@@ -1,4 +1,4 @@
-// What ranks promise, over MPI: mpirun -n N mpi_tests. Threads are checked for the same in test/unit/ranks_test.cpp.
+// Promises of ranks, over MPI: mpirun -n N mpi_tests. Threads are checked for the same in test/unit/ranks_test.cpp.
 #include <gtest/gtest.h>
 
 #include <memory>

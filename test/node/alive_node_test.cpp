@@ -130,7 +130,7 @@ TEST(Alive, ResetSetsOtherValuesAndKeepsThem) {
   EXPECT_EQ(simulator.step(1).bodies.bodies[0].pose.position.z, 0.08);
   EXPECT_EQ(reset_with(simulator, {}).bodies.bodies[0].pose.position.z, 0.065);
 
-  // What cannot be is refused, and the run goes on.
+  // Refuses what cannot be, and the run goes on.
   ASSERT_TRUE(simulator.step(7).success);
   response = reset_with(simulator, {"grid.cel=0.02"});
   EXPECT_FALSE(response.success);

@@ -95,7 +95,7 @@ TEST_F(Drive, ABodyIsWhereItsFrameIsByTheStampAndTheBagReplays) {
 
     const Step::Response last = simulator.step(1000);  // to the end of the scene
     EXPECT_TRUE(last.success);
-    EXPECT_NEAR(place(last, kProbe).x, 0.1 + 0.05 * 0.15, kRound);  // where the frame stopped
+    EXPECT_NEAR(place(last, kProbe).x, 0.1 + 0.05 * 0.15, kRound);  // place where the frame stopped
     simulator.signal(SIGINT);
     EXPECT_EQ(simulator.wait(), 0) << simulator.log();
     hash = hash_in(bag);

@@ -9,7 +9,7 @@
 namespace mpm_ros::test {
 namespace episodes_node_test {
 
-// What the node holds after a fifth of the episodes it holds at their end: 2 % is the bound that users of long
+// Memory of the node after a fifth of the episodes is that at their end: 2 % is the bound that users of long
 // trainings asked for. Each episode is recorded, and each that fails saves its state.
 TEST(Episodes, MemoryStaysFlat) {
   const int episodes = std::getenv("MPM_FULL") == nullptr ? 200 : 1000;

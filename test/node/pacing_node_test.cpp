@@ -122,7 +122,7 @@ TEST(Pacing, ABudgetThatIsTooLittleIsToldOf) {
   EXPECT_NE(simulator.log().find("time.budget: 0.001 ms is too little"), std::string::npos) << simulator.log();
 }
 
-// What the start says of a run's pace: before it runs, by timing a copy of it in real time alone, which is then kept
+// Forecast of a run's pace at its start: before it runs, by timing a copy of it in real time alone, which is then kept
 // for all.
 TEST(Pacing, TheStartForecastsAndWarns) {
   use_sim_time(false);
@@ -237,7 +237,7 @@ class Robot {
     tf_.publish(message);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  double place = 0.0;  ///< where it is now [m]
+  double place = 0.0;  ///< place now [m]
 
  private:
   ros::Publisher tf_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 100);

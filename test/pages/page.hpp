@@ -103,7 +103,7 @@ class Page {
   Page& set(const char* key, const std::string& value);
 
   std::string name_;
-  bool long_ = false;  ///< of a test that only --full runs
+  bool long_ = false;  ///< true for a test that only --full runs
   std::unique_ptr<nlohmann::json> json_;
   Figure figure_;
 };

@@ -170,7 +170,7 @@ mpm::MethodDefinition method(ShapeKind shape, mpm::Precision precision) {
   return m;
 }
 
-Matrix<2> thread() {  // of a run that tore rubber with a tool; without the limit its step is stable up to 0.15 cells
+Matrix<2> thread() {  // run that tore rubber with a tool; without the limit its step is stable up to 0.15 cells
   Matrix<2> f;
   f << 12.8, 5.9, -3.6, -1.53;
   return f / std::sqrt(f.determinant());

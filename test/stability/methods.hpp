@@ -57,7 +57,7 @@ inline std::vector<Method> transfers(mpm::ShapeKind shape = mpm::ShapeKind::ugim
   return list;
 }
 
-/// Whether a simulation with this method can be made of the definition.
+/// True if a simulation with this method can be made of the definition.
 inline bool possible(mpm::SimulationDefinition definition, const mpm::MethodDefinition& method) {
   definition.method = method;
   try {

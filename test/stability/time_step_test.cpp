@@ -75,7 +75,7 @@ double measured(const mpm::SimulationDefinition& d) {
   return breaking_point(0.05, kLargest, kSearch, [&](double courant) { return stable(d, courant); });
 }
 
-/// Whether the one-step matrix is stable: a random motion is stepped as often.
+/// True if the one-step matrix is stable: a random motion is stepped as often.
 bool stable(const LinearStep& step, double dt) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);

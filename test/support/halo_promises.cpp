@@ -83,7 +83,7 @@ struct Place {
 };
 using Node = std::tuple<std::uint64_t, std::uint64_t, int>;
 
-/// What nodes get from all particles: mass, and momentum along the axes.
+/// Sums that nodes get from all particles: mass, and momentum along the axes.
 std::map<Node, std::array<double, 4>> sums_of_one_process(const GridLayout& layout, const std::vector<Point>& points) {
   std::map<Node, std::array<double, 4>> sums;
   for (const Point& point : points) {
@@ -193,7 +193,7 @@ class Part {
   const Halo& halo() const { return halo_; }
 
  private:
-  /// What the particles of an owner give to nodes. Returns their number.
+  /// Gives to nodes what the particles of an owner have. Returns their number.
   std::size_t give_of(int field, int owner) {
     Grid& grid = *fields_[field];
     const std::array<int, 3>& place = grid.blocks.block(grid.blocks.owner_block(owner));

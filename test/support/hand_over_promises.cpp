@@ -95,7 +95,7 @@ constexpr std::uint32_t kCounts[] = {700, 500};  ///< particles of each set
 constexpr std::uint32_t kLeaves = 7;             ///< a particle that leaves its set's bounds in the last round
 constexpr int kRounds = 6;
 
-/// Where a particle is in a round [m]: they go about, and gather in a corner, so that shares become uneven.
+/// Place of a particle in a round [m]: they go about, and gather in a corner, so that shares become uneven.
 double position(std::uint32_t id, int k, int round) {
   if (id == kLeaves && round == kRounds - 1) return 1e3;
   constexpr std::array<double, 3> kSize{6.0, 2.0, 3.0};
@@ -104,7 +104,7 @@ double position(std::uint32_t id, int k, int round) {
   return 0.99 * extent * std::pow(whole, 1.0 + 0.6 * round);
 }
 
-/// What a particle has in a column: exact in single precision.
+/// Content of a particle in a column: exact in single precision.
 double content(std::uint32_t id, int column) { return 2.0 * id + 4096.0 * column; }
 
 /// Visits every column that has to travel, the positions apart, with its number.
@@ -241,7 +241,7 @@ void particles_go_to_the_rank_of_their_block(Communicator& ranks) {
       EXPECT_GT(ranks.sum(went), 0.0);
       EXPECT_GT(hand_over.divisions(), 1U) << "they gather in a corner";
     }
-    // Where nothing moves any more a division helps, and only as often as it does.
+    // Division helps where nothing moves any more, and only as often as it does.
     hand_over.hand_over(sets);
     hand_over.settle(sets);
     const double held = hand_over.imbalance();

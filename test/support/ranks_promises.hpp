@@ -1,5 +1,5 @@
-// What must hold on any number of ranks, whoever they are: threads in a unit test, processes of MPI in test/mpi. Each
-// check is called on all ranks at once.
+// Promises that must hold on any number of ranks, whoever they are: threads in a unit test, processes of MPI in
+// test/mpi. Each check is called on all ranks at once.
 #pragma once
 
 #include <ostream>
@@ -17,13 +17,13 @@ struct RanksPromise {
 /// For the names of tests.
 inline std::ostream& operator<<(std::ostream& out, const RanksPromise& promise) { return out << promise.name; }
 
-/// Of the interface itself.
+/// Promises of the interface itself.
 std::vector<RanksPromise> communicator_promises();
-/// Of the grid's division, and of particles that are handed over.
+/// Promises of the grid's division, and of particles that are handed over.
 std::vector<RanksPromise> hand_over_promises();
-/// Of nodes that several ranks give to.
+/// Promises of nodes that several ranks give to.
 std::vector<RanksPromise> halo_promises();
-/// Of a checkpoint that they write together.
+/// Promises of a checkpoint that they write together.
 std::vector<RanksPromise> checkpoint_promises();
 
 inline std::vector<RanksPromise> ranks_promises() {

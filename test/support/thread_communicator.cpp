@@ -17,7 +17,7 @@ namespace {
 /// Thrown where others will not come any more.
 struct Released {};
 
-/// Where ranks show each other what they have.
+/// Place where ranks show each other what they have.
 class Meeting {
  public:
   explicit Meeting(int size) : shown_(static_cast<std::size_t>(size)) {}

@@ -246,7 +246,7 @@ TEST(AutoMethod, SaysWhatABudgetBuys) {
   EXPECT_EQ(said(chosen(block(), rows, asked)).find("ugimp, usavg, flip: the default; no measured method"), 0U);
 }
 
-// Where runs on the cube only reach an error of 2 %, above the required 1 %, the square counts; where one reaches 1 %,
+// Counts the square where runs on the cube only reach an error of 2 %, above the required 1 %; where one reaches 1 %,
 // the cube counts.
 TEST(AutoMethod, ACubeCountsWhereItIsSolved) {
   const std::string rows =

@@ -110,7 +110,7 @@ std::array<double, 3> closed_form(double l, int node, double x, double cell) {
   return value;
 }
 
-// Where a box reaches across the axis, the closed forms contain 1 / q, here up to 50.
+// Closed forms contain 1 / q, here up to 50, where a box reaches across the axis.
 TEST(AxisymmetricUgimp, WholeDomainsAreThePapersClosedForms) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> u(0.0, 1.0);

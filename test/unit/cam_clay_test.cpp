@@ -20,7 +20,7 @@ namespace cam_clay_test {
 constexpr int kXx = 0, kYy = 1, kZz = 2;
 constexpr double kLambda = 0.2, kKappa = 0.05, kSlope = 1.0, kVoids = 1.0, kLeast = 1.0, kConsolidation = 100e3;
 
-/// Of kaolin's order; `shear` 0: Poisson's ratio 0.3.
+/// Clay of kaolin's order; `shear` 0: Poisson's ratio 0.3.
 CamClayDefinition clay(double shear = 2e6) {
   CamClayDefinition d;
   d.lambda = kLambda;

@@ -1,4 +1,4 @@
-// What a law of contact is in a step: one rule wherever surfaces meet. Expected values follow from the functions.
+// Values of a law of contact in a step: one rule wherever surfaces meet. Expected values follow from the functions.
 #include "mpm/rigid/contact_law.hpp"
 
 #include <gtest/gtest.h>

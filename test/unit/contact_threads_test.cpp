@@ -11,7 +11,7 @@ namespace mpm {
 namespace contact_threads_test {
 
 constexpr int kWide = 40;          // particles along the block: 1,600 points below its upper face, for three threads
-constexpr double kSpacing = 0.05;  // of particles [m], half a cell
+constexpr double kSpacing = 0.05;  // spacing of particles [m], half a cell
 
 /// A plate that turns and sinks on a wide block: points near the middle stick, those far from it slide.
 SimulationDefinition plate_on_block(ShapeKind shape) {

@@ -1,4 +1,4 @@
-// What tests of a crack's chain share: motions of all its points.
+// Helpers that tests of a crack's chain share: motions of all its points.
 #pragma once
 
 #include <gtest/gtest.h>

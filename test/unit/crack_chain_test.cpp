@@ -179,7 +179,7 @@ TEST(CrackChain, StopsMovesThatAreTooFar) {
   EXPECT_EQ(chain.points()[0].velocity_above, Vec2(0, 0));
   EXPECT_EQ(chain.points()[1].above, Vec2(1, 1));
   EXPECT_EQ(chain.points()[2].above, Vec2(2, 0));
-  // What stopped it is forgotten: the next step is that of a constant velocity.
+  // Forgets what stopped it: the next step is that of a constant velocity.
   EXPECT_EQ(chain.move(below.data(), below.data(), nullptr, 1.0, Move::average, 2.0), 0);
   EXPECT_EQ(chain.points()[0].above, Vec2(0, 1));
 }
@@ -206,7 +206,7 @@ TEST(CrackChain, LooksFromBesideItsSurfaces) {
         if (segment < 0 || segment > 2) continue;
         EXPECT_EQ(double_area(points[segment], points[segment + 1], from) > 0.0, above) << k << segment;
       }
-      EXPECT_LT((from - points[k]).norm(), 1e-8);  // of segments not longer than 1
+      EXPECT_LT((from - points[k]).norm(), 1e-8);  // bound for segments not longer than 1
     }
   }
 }
@@ -220,7 +220,7 @@ Vec2 put_back(const std::vector<Vec2>& points, int k, bool above, const Vec2& wa
   chain.move(above ? moved.data() : still.data(), above ? still.data() : moved.data(), still.data(), 1.0,
              Move::centre_of_mass, kInfinity);
   EXPECT_EQ(chain.prevent(), expected);
-  EXPECT_EQ(chain.prevent(), 0);  // what is put back stays
+  EXPECT_EQ(chain.prevent(), 0);  // keeps what is put back
   return above ? chain.points()[k].above : chain.points()[k].below;
 }
 

@@ -147,7 +147,7 @@ TEST(CrackContour, HasOnePointOnEachFace) {
     EXPECT_NEAR(piece.normal.dot(piece.to - piece.from), 0.0, 1e-15);
     EXPECT_GT(piece.normal.dot(0.5 * (piece.from + piece.to) - at(5, 4)), 0.0);
   }
-  EXPECT_NEAR(turn.norm(), 0.0, 1e-14);  // of a closed line
+  EXPECT_NEAR(turn.norm(), 0.0, 1e-14);  // sum over a closed line
   EXPECT_NEAR(around, 2.0 * (1.0 + 0.5), 1e-14);
 
   // A node without material across: its face has what the other node has.
@@ -169,7 +169,7 @@ TEST(CrackContour, HasOnePointOnEachFace) {
 /// = 3.5.
 class OffCentre final : public ContourSource {
  public:
-  double aside = 0.0;  ///< of the centres of material across [cells]
+  double aside = 0.0;  ///< offset of the centres of material across [cells]
   static double energy(double j, bool above) { return above ? 2.0 + 0.3 * j : 1.0 - 0.2 * j; }
   bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override {
     const bool own = field == ContourField::own, above = (node[1] >= 4) == own;

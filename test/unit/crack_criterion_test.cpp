@@ -172,7 +172,7 @@ TEST(CrackCriterion, FaultsNameTheConstant) {
   some.gain = 0.0;
   EXPECT_TRUE(names(fault(C::energy_balance, some), "gain"));
 
-  // What sets a speed is refused as the alternate rule.
+  // Refuses as the alternate rule what sets a speed.
   for (const C criterion : {C::steady_state, C::energy_balance}) {
     const GrowthRule rule{criterion, GrowthDirection::by_criterion, ""};
     EXPECT_TRUE(names(criterion_fault(rule, all, &elastic, true), "alternate"));

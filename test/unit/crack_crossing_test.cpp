@@ -1,5 +1,5 @@
-// Which ways cross a crack, in whole numbers, where every coincidence is exact: ways through crack points, along
-// segments, nodes on segments. Source of the rule: crack reference 1.2.
+// Test of which ways cross a crack, in whole numbers, where every coincidence is exact: ways through crack points,
+// along segments, nodes on segments. Source of the rule: crack reference 1.2.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool on_segment(const Spot& a, const Spot& b, const Spot& p) {
   return area(a, b, p) == 0 && (a.x - p.x) * (b.x - p.x) + (a.z - p.z) * (b.z - p.z) <= 0;
 }
 
-/// Whether a point that is not on the closed chain is inside it, by even and odd. The ray goes far along (1000, 1), so
+/// True if a point that is not on the closed chain is inside it, by even and odd. The ray goes far along (1000, 1), so
 /// that it meets no other spot of a lattice of less than 1000 spots: each segment is met properly or not at all.
 bool inside(const Spots& closed, const Spot& p) {
   const Spot far{p.x + 1000 * 1000, p.z + 1000};
@@ -58,13 +58,13 @@ bool through_point(const Spots& chain, const Spot& p, const Spot& i) {
   return std::any_of(chain.begin(), chain.end(), [&](const Spot& c) { return on_segment(p, i, c); });
 }
 
-/// Whether a point of a chain is a corner.
+/// True if a point of a chain is a corner.
 bool on_corner(const Spots& corners, const Spots& chain) {
   return std::any_of(chain.begin(), chain.end(),
                      [&](const Spot& c) { return std::find(corners.begin(), corners.end(), c) != corners.end(); });
 }
 
-/// Whether a segment of a chain lies on the line through p and i.
+/// True if a segment of a chain lies on the line through p and i.
 bool runs_along(const Spots& chain, const Spot& p, const Spot& i) {
   for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
     if (area(p, i, chain[k]) == 0 && area(p, i, chain[k + 1]) == 0) return true;
@@ -72,7 +72,7 @@ bool runs_along(const Spots& chain, const Spot& p, const Spot& i) {
   return false;
 }
 
-/// Whether a segment of a chain lies on the line through an edge between corners.
+/// True if a segment of a chain lies on the line through an edge between corners.
 bool along_edge(const Spots& corners, const Spots& chain) {
   for (std::size_t j = 0; j + 1 < corners.size(); ++j) {
     if (runs_along(chain, corners[j], corners[j + 1])) return true;

@@ -16,7 +16,7 @@ namespace crack_energy_test {
 FractureConstants balance_constants() {
   FractureConstants constants;
   constants.j_ic = 100.0;
-  constants.speed = 0.1;  // of 1000 m/s
+  constants.speed = 0.1;  // part of 1000 m/s
   constants.gain = 0.5;
   return constants;
 }

@@ -36,7 +36,7 @@ struct WilliamsField {
   double k_i = 1.0, k_ii = 0.0;
   double along = 0.0, across = 0.0, shear = 0.0;
   Vec2 tip{0.0, 0.0};
-  double angle = 0.0;  ///< of the direction of growth to the x axis
+  double angle = 0.0;  ///< angle of the direction of growth to the x axis
 
   double modulus() const { return 8.0 * shear_modulus / (kappa + 1.0); }
   Vec2 direction() const { return {std::cos(angle), std::sin(angle)}; }

@@ -1,4 +1,4 @@
-// What growth does to pairs of particle and node that it puts across the crack (crack/field_jumps.hpp), and which field
+// Effect of growth on pairs of particle and node that it puts across the crack (crack/field_jumps.hpp), and which field
 // of a node holds what lies beyond cracks (crack/divided_node.hpp).
 #include <gtest/gtest.h>
 

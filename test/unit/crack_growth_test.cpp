@@ -1,4 +1,4 @@
-// Whether a tip grows, and where to: the criteria and directions of crack reference 5.2 and 5.3 as a tip meets them,
+// Growth of a tip and its direction: the criteria and directions of crack reference 5.2 and 5.3 as a tip meets them,
 // the alternate rule, and growth at a set speed.
 #include <gtest/gtest.h>
 

@@ -68,7 +68,7 @@ TEST(CrackJIntegral, HasTheErrorOfItsQuadrature) {
   }
 }
 
-// Of modes mixed with a T-stress. K has the sign and, within that of the quadrature, the error of J's square root...
+// Tests modes mixed with a T-stress. K has the sign and, within that of the quadrature, the error of J's square root...
 TEST(CrackInteractionIntegral, KeepsTheModesApart) {
   struct Row {
     int size;
@@ -230,7 +230,7 @@ TEST(CrackJIntegral, LeavesARotationOut) {
   field.angle = 0.4;
   WilliamsContour contour;
   ASSERT_EQ(contour.gather(field, {0.1, -0.3}, 3), ContourStatus::complete);
-  constexpr double kTurn = 50.0;  // of strains of 0.3
+  constexpr double kTurn = 50.0;  // size of strains of 0.3
   const ExactContourSource turned(contour.lines, [&](const Vec2& place, ContourField side) {
     ContourValues values = field(place, side);
     values.gradient[0][1] += kTurn;

@@ -106,7 +106,7 @@ struct PennyContour {
     const ExactContourSource source(lines, [this](const Vec2& place, ContourField side) {
       const bool own = side == ContourField::own;
       if (own || place[0] > kRadius) return penny(place[0], place[1], true, tension);
-      // What lies across the crack, gone on over it: the mirror image of the field there, to second order.
+      // Field across the crack, gone on over it: the mirror image of the field there, to second order.
       const ContourValues near = penny(place[0], place[1] < 0.0 ? 0.0 : -0.0, place[1] < 0.0, tension);
       const double z = std::abs(place[1]);
       const ContourValues there = penny(place[0], place[1] < 0.0 ? z : -z, true, tension);

@@ -33,7 +33,7 @@ TEST(CrackConstants, WaveSpeeds) {
   EXPECT_NEAR(steel().dilatational_speed(), 5944.5, 0.05);  // reference 7.10, one decimal
   EXPECT_NEAR(steel().shear_speed(), 3177.4, 0.05);
   EXPECT_NEAR(steel().rayleigh_speed(), 2946.8, 0.05);
-  // Of a plate: sqrt(E / (rho (1 - nu^2))).
+  // Speed of a plate: sqrt(E / (rho (1 - nu^2))).
   const ElasticConstants plate{210e9, 0.3, 8000.0, true};
   EXPECT_NEAR(plate.dilatational_speed(), std::sqrt(210e9 / (8000.0 * 0.91)), 1e-9 * 5000.0);
   EXPECT_EQ((ElasticConstants{210e9, 0.3, 0.0, false}.rayleigh_speed()), kInfinity);

@@ -218,7 +218,7 @@ TEST(CrackTractionCurves, BalanceTheirEnergy) {
     TractionState state;
     walk(law, state, u, 0.0, steps);
     const double h = u / steps, k = law.stiffness();
-    const auto slope = [&](double x) { return k * (1.0 - x) * (1.0 - 3.0 * x); };  // of k u (1 - u/u_c)^2
+    const auto slope = [&](double x) { return k * (1.0 - x) * (1.0 - 3.0 * x); };  // slope of k u (1 - u/u_c)^2
     const double error = h * h / 12.0 * (slope(0.8) - slope(0.0));
     EXPECT_GT(std::abs(error), 1e-6 * cubic.toughness);
     EXPECT_NEAR(state.work - error, law.stored(state, u, 0.0) + law.released(state), 1e-12 * cubic.toughness);
@@ -226,7 +226,7 @@ TEST(CrackTractionCurves, BalanceTheirEnergy) {
   const TableRow lines = triangular_row();
   const TractionLaw other = law_of(lines);
   TractionState state;
-  for (const double n : {0.3, 0.5, -0.2, 0.4, 0.6, 0.1}) {  // of u_c; both ways, through the closed crack, any step
+  for (const double n : {0.3, 0.5, -0.2, 0.4, 0.6, 0.1}) {  // times u_c; both ways, through the closed crack, any step
     const double t = n > 0.45 ? -0.5 * n : 0.4 * n;
     other.advance(n * lines.mode.opening, t * lines.mode.opening, 0.0, state);
     EXPECT_NEAR(state.work, other.stored(state, n * lines.mode.opening, t * lines.mode.opening) + other.released(state),
@@ -256,7 +256,7 @@ TEST(CrackTractionCurves, FailByTheRuleOfBothModes) {
   // n = 2: ((u - 0.01) / 0.09)^2 + ((u - 0.02) / 0.18)^2 = 1, so 5 u^2 - 0.12 u + 0.0008 = 0.0324
   const double root = (0.12 + std::sqrt(0.0144 + 20.0 * (0.0324 - 0.0008))) / 10.0;
   EXPECT_NEAR(fails_at(2.0, two), root * kMm, 1.1e-5 * kMm);
-  EXPECT_NEAR(fails_at(0.0, pure), 0.1 * kMm, 1.1e-5 * kMm);  // when one of them has
+  EXPECT_NEAR(fails_at(0.0, pure), 0.1 * kMm, 1.1e-5 * kMm);  // fails when one of them has
 }
 
 TEST(CrackTractionCurves, SpringsHoldForever) {

@@ -106,7 +106,7 @@ TEST(CutCells, TheSurfaceOfADiskIsWhereTheShapeHasIt) {
   for (const Vec3& c : kCentres) {
     const DeformableBody body =
         filled("plane_strain", fmt::format("sphere: {{center: [{}, {}], radius: {}}}", c.x(), c.z(), r));
-    std::map<int, double> farthest;  // of what lies within a degree
+    std::map<int, double> farthest;  // distance of what lies within a degree
     for (std::size_t p = 0; p < body.positions.size(); ++p) {
       const Vec3 arm = body.positions[p] - Vec3(c.x(), 0.0, c.z());
       const double outer = arm.norm() + 0.5 * kPlace * body.surfaces[p];

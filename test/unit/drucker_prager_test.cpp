@@ -122,7 +122,7 @@ TEST(DruckerPrager, OpenedSoilDilatesWithoutPressure) {
   EXPECT_EQ(element.root_j2(), 0.0);
 }
 
-// What is left of the trial deviator and the mean stress say as much as the stresses themselves.
+// Part left of the trial deviator and mean stress say as much as the stresses themselves.
 TEST(DruckerPrager, TakesTheWorkOfAReturnFromItsDeviator) {
   std::mt19937 engine(4);
   std::uniform_real_distribution<double> u(-1.0, 1.0);

@@ -162,7 +162,7 @@ TEST(EdgeCover, AToolThatDividesTheFieldActsWhereItLies) {
   EXPECT_NEAR(around(field, body, {0.63, 0.0, edge + 0.04}, Vec3::UnitX()).seen(field, velocity), 3.0, kSeen);
 }
 
-// What an impulse at one point does to the velocity at another is what it does the other way round, whatever the nodes
+// Effect of an impulse at one point on the velocity at another is the same the other way round, whatever the nodes
 // weigh, and no impulses gain energy: the sweeps over points then converge. Less than a hundredth is left where a
 // node further out has a small part before the face itself, and the soil behind the plane is thin.
 TEST(EdgeCover, PointsAnswerEachOtherSymmetrically) {

@@ -11,7 +11,7 @@
 namespace mpm {
 namespace elastic_waves_test {
 
-/// Of soil, the elastic law inside its yield surface: its own wave speed is a bound that foresees flow.
+/// Elastic law of soil inside its yield surface: soil's own wave speed is a bound that foresees flow.
 MaterialDefinition before_flow(MaterialDefinition material) {
   if (const auto* soil = std::get_if<DruckerPragerDefinition>(&material.law)) {
     return {material.name, material.density, LinearElasticDefinition{soil->elasticity}};

@@ -1,4 +1,4 @@
-// What implicit steps go together with (simulation/implicit_rules.hpp): each refusal names its key. 0.1 s.
+// Combinations that implicit steps allow (simulation/implicit_rules.hpp): each refusal names its key. 0.1 s.
 #include <gtest/gtest.h>
 
 #include <string>

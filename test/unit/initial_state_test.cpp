@@ -90,7 +90,7 @@ TEST(InitialState, PlaneStrainDecidesTheStressAlongY) {
   EXPECT_NEAR(s(2, 2), -5e4, 1e-4);
   EXPECT_NEAR(s(0, 2), 1e4, 1e-4);
   EXPECT_NEAR(cauchy(state)(1, 1), s(1, 1), 1e-4);
-  // Where the strain is small, nu (sxx + szz), to the order of the strain, 5e-4.
+  // Stress where the strain is small: nu (sxx + szz), to the order of the strain, 5e-4.
   const InitialState slight =
       under(NeoHookeanDefinition{kElasticity}, {-30.0, 0, -50.0, 0, 10.0, 0}, GeometryKind::plane_strain, true);
   EXPECT_NEAR(cauchy(slight)(1, 1), -24.0, 1e-3 * 24.0);

@@ -163,7 +163,7 @@ Heated heated(const JohnsonCookDefinition& d, double strain, double rate) {
   constexpr int kSteps = 20000;
   const double per_work = d.heat_fraction / (kDensity * d.heat_capacity), n = d.hardening_exponent;
   const double h = std::pow(strain, n) / kSteps;
-  const auto slope = [&](double s, double kelvin) {  // of the plastic work over s = a^n
+  const auto slope = [&](double s, double kelvin) {  // slope of the plastic work over s = a^n
     const double a = std::pow(s, 1.0 / n);
     return flow_stress(d, a, rate, kelvin) * std::pow(s, 1.0 / n - 1.0) / n;
   };

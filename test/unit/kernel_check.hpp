@@ -75,7 +75,7 @@ class Kernels : KernelComparison<Geometry, T> {
     EXPECT_FALSE(scene_.mechanics->failed());
     scene_.reference.strain(dt, scene_.settings.gradient_terms, average());
     compare_state();
-    scene_.reference.force(average());  // of the kernels' stress, whose own tolerance must not count here
+    scene_.reference.force(average());  // force of the kernels' stress, whose own tolerance must not count here
     compare_nodes("force", scene_.grid.force, [](const ReferenceNode& n, int c) { return n.force[c]; });
     // The total is zero, since the sum of G over the nodes of a particle is zero (GIMP notes (1.26)), except for the
     // radial force of the hoop stress.

@@ -46,7 +46,7 @@ class KernelTransfers : KernelComparison<Geometry, T> {
   }
 
  private:
-  // Of particles, in load; of nodes, in `from`. The second body takes no part.
+  // Chooses numbers of particles, in load, and of nodes, in `from`. The second body takes no part.
   void choose_numbers() {
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     numbers_.resize(scene_.sets.size());

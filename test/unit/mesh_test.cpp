@@ -170,7 +170,7 @@ TEST(Mesh, NearestTriangleIsFoundByTheTree) {
     for (const auto& triangle : mesh.triangles) {
       const Vec3 corner[3] = {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]};
       const Vec3 n = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-      bool above = true;  // whether the projection onto the plane lies within the triangle
+      bool above = true;  // true if the projection onto the plane lies within the triangle
       for (int e = 0; e < 3; ++e) {
         const Vec3 &a = corner[e], &b = corner[(e + 1) % 3];
         above = above && n.dot((b - a).cross(p - a)) >= 0.0;

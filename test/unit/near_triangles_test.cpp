@@ -34,13 +34,13 @@ struct Mesh {
   std::vector<Triangle> triangles;
   Box bounds;
   TriangleTree tree;
-  bool inside = false;  ///< what is said of points within the bounds
+  bool inside = false;  ///< answer for points within the bounds
   NearTriangles near;
 };
 
 std::vector<Vec3> points_around(const Box& bounds, int count) {
   std::mt19937 engine(7);
-  std::uniform_real_distribution<double> uniform(-0.9, 0.9);  // of the size: some lie outside the grid
+  std::uniform_real_distribution<double> uniform(-0.9, 0.9);  // parts of the size: some lie outside the grid
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) {
     const Vec3 at(uniform(engine), uniform(engine), uniform(engine));
@@ -89,7 +89,7 @@ TEST(NearTriangles, IsThatOfAllTrianglesToTheBit) {
   }
 }
 
-// Of the middle of a ring every part is as near, so its cell has too many triangles.
+// Parts of a ring are all as near to its middle, so its cell has too many triangles.
 TEST(NearTriangles, WhereACellHasTooMany) {
   TriangleMesh ring;
   constexpr int kSides = 300;

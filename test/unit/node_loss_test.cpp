@@ -1,4 +1,4 @@
-// What a surface takes at a node, by hand.
+// Loss of a surface at a node, by hand.
 #include "mpm/step/node_loss.hpp"
 
 #include <gtest/gtest.h>

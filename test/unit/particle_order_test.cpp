@@ -105,7 +105,7 @@ TEST_P(ParticleOrderTest, SortsAsIfParticlesLayInThatOrder) {
     }
     EXPECT_EQ(sorted.next_x[1].size(), sorted.id.size());
 
-    // Of those asleep as few have moved as had to.
+    // Moves of those asleep are as few as can be.
     ASSERT_EQ(sorted.asleep, asleep);
     std::vector<std::uint32_t> sleepers = ids_of(sorted, awake, sorted.size()), all(tail);
     const auto moved = std::min<int>(asleep, std::abs(awake - static_cast<int>(kAwakeBefore)));
@@ -121,7 +121,7 @@ TEST_P(ParticleOrderTest, SortsAsIfParticlesLayInThatOrder) {
   }
 }
 
-// What has failed to be sorted is found by its number in the order.
+// Finds what has failed to be sorted by its number in the order.
 TEST(ParticleOrder, NumbersPlaces) {
   ParticleSet set = set_of({0, 1, 2, 3, 4, 5, 6, 7}, 0);
   ParticleOrder order;

@@ -19,7 +19,7 @@ constexpr double kLength = 1.0, kCell = 0.05;  // [m]
 /// Particles take increments, as in FLIP: c_p += dt sum_i S_ip r_i, m_i r_i = -sum_p m_p k G_ip . grad c_p.
 class Dye final : public Stage {
  public:
-  /// Of a run with one body.
+  /// Makes the dye of a run with one body.
   Dye(RunParts& parts, double diffusivity)
       : set_(parts.sets[0]),
         transfer_(parts.make_transfer(parts.definition.method.shape)),

@@ -58,7 +58,7 @@ TEST(Rehearsal, FindsWhatIsAwakeAndWhatTouches) {
   EXPECT_GE(found->awake, is.awake);
   EXPECT_LE(found->awake, 1.3 * is.awake);
   EXPECT_NEAR(found->touched, is.touched, 0.05);
-  EXPECT_EQ(found->steps, 1.0);  // of a scene with a step of its own
+  EXPECT_EQ(found->steps, 1.0);  // value for a scene with a step of its own
 }
 
 // A blade that comes down to the bed in the middle of the run.

@@ -241,7 +241,7 @@ TEST(Revolved, ThicknessIsThatOfWallsAndNeedlesNotOfBluntTips) {
 
 TEST(Revolved, TheSectionOfARingThatMovesIsExactOnEitherSideOfTheAxis) {
   const auto ring = make_ring(0.2, 0.3, 1.0, true);
-  // When the ring is opened by 0.5, r = 0.1 lies at x = -0.4 of the body: 0.6 from the inner face, not within the wall.
+  // Place r = 0.1 of the ring opened by 0.5 lies at x = -0.4 of the body: 0.6 from the inner face, not within the wall.
   EXPECT_DOUBLE_EQ(ring->at({-0.4, 0.0, 0.0}).distance, 0.6);
   EXPECT_EQ(ring->at({-0.4, 0.0, 0.0}).normal, Vec3(-Vec3::UnitX()));
   EXPECT_NEAR(ring->at({0.26, 0.0, 0.1}).distance, -0.04, kRounding);

@@ -29,7 +29,7 @@ void run_sync(RigidBody& body, std::int64_t from, int steps) {
   body.at_sync(from + 10'000'000);
 }
 
-/// what() of the RigidError that `action` throws; empty when it throws none.
+/// Message of the RigidError that `action` throws; empty when it throws none.
 template <typename Action>
 std::string refusal(Action&& action) {
   try {

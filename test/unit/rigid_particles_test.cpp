@@ -124,7 +124,7 @@ Row row_of(RigidParticles& particles, const GridLayout& layout, int row, int nod
   return found;
 }
 
-// Of a body that reaches across a symmetry plane only the part on this side counts: half of the whole at the nodes on
+// Counts only the part on this side of a body that reaches across a symmetry plane: half of the whole at the nodes on
 // the plane, and all of it beyond the reach of the other half. The body has an even or an odd number of particles
 // across; the middle ones of an odd number are cut in two.
 TEST(RigidParticles, AreCutOffAtMirrors) {

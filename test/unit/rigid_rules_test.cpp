@@ -1,4 +1,4 @@
-// What does not go together with a rigid body: each rule alone, in a definition that is else taken.
+// Refusals of what does not go together with a rigid body: each rule alone, in a definition that is else taken.
 #include "mpm/simulation/rigid_rules.hpp"
 
 #include <gtest/gtest.h>

@@ -68,7 +68,8 @@ TEST(LongSteps, AreMadeShorterOnTheWay) {
   EXPECT_LT(audit.residual, 1e-12);
 }
 
-// What was seen, divided and looked at is in a checkpoint: a run that goes on from one remembers the same to the bit.
+// Stores in a checkpoint what was seen, divided and looked at: a run that goes on from one remembers the same to the
+// bit.
 TEST(LongSteps, AreRememberedInCheckpoints) {
   const auto path = std::filesystem::temp_directory_path() / fmt::format("mpm_run_safety_{}.h5", getpid());
   Simulation whole(press(130'000'000), {1}), again(press(130'000'000), {1});

@@ -1,4 +1,4 @@
-// What holds for the weights of every shape function, seen through the transfers that any field may use: values of a
+// Rules for the weights of every shape function, seen through the transfers that any field may use: values of a
 // particle sum to 1 and its gradients to 0, linear fields and their slopes are reproduced; and that sums do not depend
 // on threads or on what is left out. Against plain loops: kernel_shapes_test.cpp.
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ void check_identities(ShapeKind shape) {
     for (const double hoop : body.taken[2]) EXPECT_NEAR(hoop, 1.0, 16 * kRounding<T>);
   }
 
-  // What particles give arrives, all of it; gradients give as much as they take.
+  // All that particles give arrives; gradients give as much as they take.
   NodalField found = body.nodal(1);
   const auto total = [&](double& size) {
     double sum = 0.0;

@@ -202,7 +202,7 @@ TEST(SceneBadInput, CharactersThatLookLikeOthers) {
   EXPECT_NE(key.find("it has a zero-width space (U+200B), which is not seen; delete it"), std::string::npos) << key;
   EXPECT_NE(refusal(good, {"materials.0.<<={young: 1}"}).find("merge keys are not understood; write the keys out"),
             std::string::npos);
-  // Where several laws have a key it is listed once.
+  // Lists a key once that several laws have.
   const std::string listed = refusal(good, {"materials.0.qqqqqq=1"});
   EXPECT_EQ(listed.find("young"), listed.rfind("young")) << listed;
 }

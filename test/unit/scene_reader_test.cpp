@@ -1,4 +1,4 @@
-// How a scene's text is read: defaults, units, overrides, sync points.
+// Reading of a scene's text: defaults, units, overrides, sync points.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -146,7 +146,7 @@ class SceneTerrainFile : public ::testing::Test {
     const char* no_data = nullptr;
     bool tiled = false;
     int samples = 1;
-    Vec2 corner{-0.1, 1.1};  // of the tiepoint, the upper left
+    Vec2 corner{-0.1, 1.1};  // place of the tiepoint, the upper left
   };
   /// `value(column, row)` from the lower left on.
   template <class T>
@@ -219,8 +219,8 @@ class SceneTerrainFile : public ::testing::Test {
       std::filesystem::temp_directory_path() / ("mpm_terrain_test_" + std::to_string(std::random_device{}()));
 };
 
-/// Of 0.053 + 0.2 x + 0.4 y over the unit square: with 6 x 6 points, heights above 0.053 are (i + 2 j) / 15 of 0.6 m,
-/// which 8 and 16 bits hold exactly. No particle's centre lies on the surface.
+/// Plane of 0.053 + 0.2 x + 0.4 y over the unit square: with 6 x 6 points, heights above 0.053 are (i + 2 j) / 15 of
+/// 0.6 m, which 8 and 16 bits hold exactly. No particle's centre lies on the surface.
 const DeformableBody& plane() {
   static const DeformableBody body = soil_of("x: [0, 1], y: [0, 1], heights: 0.053 + 0.2*x + 0.4*y, cells: [5, 5]");
   return body;

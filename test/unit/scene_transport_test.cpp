@@ -19,7 +19,7 @@ bodies: [{name: block, material: wax, shape: {box: {min: [0.2, 0.2], max: [1, 0.
 const char* const kHeat = "transport={temperature: {}}";
 const char* const kPores = "transport={pore_pressure: {}}";
 
-/// What building the run of the scene with these changes says; empty: nothing.
+/// Message of building the run of the scene with these changes; empty: nothing.
 std::string fault_of(std::vector<std::string> changes) {
   try {
     Simulation run(parse_scene(kScene, "transport.yaml", changes), {1});

@@ -58,7 +58,7 @@ ParticleSet numbered_particles(int count) {
     set.f[0].set(p, 1.0 + p);
   }
   set.next_x = set.x;
-  for (int p = 0; p < count; ++p) set.next_x[0][p] = -1e9;  // of a step before: may not be taken for a place
+  for (int p = 0; p < count; ++p) set.next_x[0][p] = -1e9;  // place of a step before: may not be taken for a place
   return set;
 }
 

@@ -1,4 +1,4 @@
-// What friction angle each law of soil has in which state, on single elements driven to where the stress no longer
+// Friction angle of each law of soil in each state, on single elements driven to where the stress no longer
 // changes. Mohr-Coulomb asks for the same in all of them: s1 - s3 = (s1 + s3) sin(phi) + 2 c cos(phi), pressure
 // positive.
 #include <gtest/gtest.h>

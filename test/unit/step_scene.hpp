@@ -63,7 +63,7 @@ class StepScene {
     /// Centre of the block [m]; rings begin at their axis.
     Vector centre{Geometry::kHoop ? 0.5 * cells * kCell : 1.5, 1.5, 1.5};
     std::function<bool(const Vector&)> keep = [](const Vector&) { return true; };
-    bool walls = false;  ///< whether walls stand at the lower corner of the domain
+    bool walls = false;  ///< true if walls stand at the lower corner of the domain
   };
 
   explicit StepScene(const StepMethod& method, const Body& body = {}, int threads = 1, Isa isa = best_isa())

@@ -92,7 +92,7 @@ class StressAverageOf : public testing::Test {};
 using Precisions = testing::Types<double, float>;
 TYPED_TEST_SUITE(StressAverageOf, Precisions);
 
-// What flows gets the mean of the stresses; what does not flow, what is in tension and what is alone stay.
+// Gives the mean of the stresses to what flows; what does not flow, what is in tension and what is alone stay.
 TYPED_TEST(StressAverageOf, SharedByWhatFlowsInACell) {
   const double tolerance = sizeof(TypeParam) == 4 ? 1e-6 : 1e-14;
   Soil<TypeParam> soil({{0.52, 0.41, -9.0, -5.0, 1.0, -4.0, 0.1},
@@ -158,7 +158,7 @@ TYPED_TEST(StressAverageOf, TheVolumeIsSharedToo) {
 
 // Metal shares deviators and J in tension, too, and what it loses is what its law's energy says.
 TYPED_TEST(StressAverageOf, MetalSharesInTensionToo) {
-  const double stress = kShear / kDensity * 1e-3;  // of an elastic strain of 1e-3 [J/kg]
+  const double stress = kShear / kDensity * 1e-3;  // stress of an elastic strain of 1e-3 [J/kg]
   Soil<TypeParam> metal(
       {{0.52, 0.41, 3.0 * stress, 0.0, 0.0, 0.0, 0.1}, {0.58, 0.48, 0.0, 3.0 * stress, 0.0, 0.0, 0.1}}, metal_law());
   metal.act();

@@ -45,8 +45,8 @@ TEST(LimitLoads, BoundsOfARoughWallHoldPublishedValuesBetweenThem) {
   }
 }
 
-// What the wedge displaces piles up beside it: the triangle between face, contact and the lip, which is as long as the
-// contact and falls at (half angle - fan). And at 90 degrees it is Prandtl's punch, (2 + pi) k.
+// Soil that the wedge displaces piles up beside it: the triangle between face, contact and the lip, which is as long as
+// the contact and falls at (half angle - fan). And at 90 degrees it is Prandtl's punch, (2 + pi) k.
 TEST(LimitLoads, WedgePilesUpWhatItDisplaces) {
   for (const double degrees : {15.0, 30.0, 45.0, 60.0, 75.0}) {
     const double beta = radians(degrees);

@@ -34,7 +34,7 @@ auto count_facing(const Samples& samples, const Vec3& normal) {
   return count(samples, [&](const SurfaceSample& s) { return (s.normal - normal).norm() < kRound; });
 }
 
-/// Whether each point has one opposite it, at -place, with the opposite normal and the same area.
+/// Expects that each point has one opposite it, at -place, with the opposite normal and the same area.
 void expect_mirrored(const Samples& samples) {
   for (const SurfaceSample& sample : samples) {
     EXPECT_EQ(count(samples,
@@ -133,7 +133,8 @@ TEST(SurfaceSamples, OfACapsuleInAPlaneGoAllAround) {
   }
 }
 
-// Of the half section: the mantle, 0.3 m high, and two radii of 0.4 m; nothing on the axis, which is no edge either.
+// Samples of the half section: the mantle, 0.3 m high, and two radii of 0.4 m; nothing on the axis, which is no edge
+// either.
 TEST(SurfaceSamples, InAxisymmetryLieOnTheHalfSection) {
   const auto cylinder = make_cylinder(0.4, 0.3);
   const Samples samples = sample_surface(*cylinder, GeometryKind::axisymmetric, {0.05, 0.0});
@@ -208,7 +209,7 @@ TEST(SurfaceSamples, OfACylinderInSpaceLieOnMantleAndEnds) {
   const Samples clear = sample_surface(*cylinder, kSpace, {0.04, 0.03});
   EXPECT_LT(clear.size(), samples.size());
   EXPECT_GT(clear.size(), samples.size() / 2);
-  const double sagitta = radius * (1.0 - std::cos(kPi / 48.0));  // of the chord that is drawn for the rim
+  const double sagitta = radius * (1.0 - std::cos(kPi / 48.0));  // sagitta of the chord that is drawn for the rim
   for (const SurfaceSample& s : clear) {
     const Vec3 radial(s.place.x(), s.place.y(), 0.0);
     if (std::abs(s.normal.z()) < 0.5) {

@@ -127,7 +127,7 @@ rigid_bodies: [{name: tool, shape: {mesh: {file: maps/none.stl}}}]
   EXPECT_NE(run.text.find("young: 0.2 MPa"), std::string::npos) << run.text;
 }
 
-/// What reading the plan, or the scene of one of its runs, says.
+/// Message of reading the plan, or the scene of one of its runs.
 std::string refusal(const std::string& text) {
   try {
     const Plan plan = parse_plan(text, "plan.yaml");

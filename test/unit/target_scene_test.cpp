@@ -135,7 +135,7 @@ TEST(SceneTarget, ARecordedChoiceIsOfThatSceneAlone) {
   const auto with = [&](const std::string& line) {
     return with_recorded_choice(parse_scene(kScene, "t", {"target.real_time=1", line}), chosen.text);
   };
-  // What the user sets counts, be it a key that was chosen or another.
+  // Counts what the user sets, be it a key that was chosen or another.
   EXPECT_EQ(with("time.cfl=0.2").why,
             "what was chosen was chosen from time.cfl by default, and the scene has time.cfl=0.2");
   EXPECT_EQ(with("grid.cell=0.2").why,
@@ -234,7 +234,7 @@ TEST(SceneTarget, ASymmetricSceneIsHalvedAtTheMiddleOfItsGrid) {
   expect_start(refused("bodies.bed.shape.box.min=[0.2, 0]"), start + "body 'bed' is no box whose middle lies on");
   expect_start(refused("gravity=[1, -9.81]"), start + "gravity pulls across");
   expect_start(refused("boundaries.x_min=fixed"), start + "the two faces of the grid differ");
-  // What acts, or starts, on one side alone.
+  // Refuses what acts, or starts, on one side alone.
   expect_start(refused("boundaries={all: slip, x_min: {friction: 0.3}, x_max: {friction: 0.5}}"),
                start + "the two faces of the grid differ");
   EXPECT_EQ(refused("boundaries={all: slip, x_min: {friction: 0.3}, x_max: {friction: 0.3}}"), "no error");

@@ -1,4 +1,4 @@
-// How many threads processes of one machine take that run side by side.
+// Number of threads of processes that run side by side on one machine.
 #include "mpm/simulation/threads.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ ProcessorSet processors(int first, int count) {
   return set;
 }
 
-// Of a machine with as many processors as this one may use, and no more than a control group grants.
+// Threads of a machine with as many processors as this one may use, and no more than a control group grants.
 TEST(Threads, OfAProcessAloneAreThoseOfTheMachine) {
   EXPECT_TRUE(own_processors().any());
   EXPECT_EQ(threads_beside({own_processors()}, 0), machine_threads());
@@ -34,7 +34,7 @@ TEST(Threads, OfProcessesThatShareProcessorsAreAShare) {
 // The share of a processor counts, not the number of processes: neighbours with processors of their own take none.
 TEST(Threads, OfAProcessThatIsBoundAreThoseOfItsProcessors) {
   if (machine_threads() < 2) GTEST_SKIP() << "a process has one thread here in any case";
-  // Of one that has two to itself the control group's time is shared, so it is asked beside none.
+  // Process that has two to itself: the control group's time is shared, so it is asked beside none.
   EXPECT_EQ(threads_beside({processors(4, 2)}, 0), 2);
   EXPECT_EQ(threads_beside({processors(4, 1)}, 0), 1);
   EXPECT_EQ(threads_beside({processors(0, 2), processors(2, 2), processors(2, 2)}, 1), 1);

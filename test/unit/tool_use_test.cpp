@@ -1,4 +1,4 @@
-// How tools meet the ground: depth, width and use, of motions and shapes whose figures are known by hand. 0.3 s.
+// Use of tools in the ground: depth, width and use, of motions and shapes whose figures are known by hand. 0.3 s.
 #include "mpm/pace/tool_use.hpp"
 
 #include <fmt/format.h>

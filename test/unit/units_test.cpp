@@ -118,7 +118,7 @@ TEST(Units, WhatIsNotAQuantityIsRefused) {
   }
 }
 
-// Who follows a suggestion must not be off by powers of ten.
+// Suggestions must not lead astray by powers of ten.
 TEST(Units, AnotherCaseSuggestsTheUnitThatIsMeant) {
   const std::vector<std::array<const char*, 2>> meant = {{"KPa", "did you mean 'kPa'?"},
                                                          {"KPA", "did you mean 'kPa'?"},

@@ -98,7 +98,7 @@ bool is_soil(const MaterialPoint& point) {
          std::holds_alternative<NorSand>(point.law()) || is_grain(point);
 }
 
-/// Whether the material has opened: it is then softer than its wave speed, which is that of closed material.
+/// True if the material has opened: it is then softer than its wave speed, which is that of closed material.
 bool parted(const MaterialPoint& point) {
   if (std::holds_alternative<DruckerPrager>(point.law())) return point.history(DruckerPrager::kOpening) > 0.0;
   if (std::holds_alternative<MohrCoulomb>(point.law())) return point.history(MohrCoulomb::kOpening) > 0.0;

@@ -43,7 +43,7 @@ TEST(AdiabaticHeat, Compression) {
       mpm::Simulation one = strained("-0.01*x", "0", more);
       run_until(one, 0.1);
       expect_balance(one, "temperature");
-      const double strain = std::exp(-1e-3) - 1.0;  // of nodes whose velocity goes with their place
+      const double strain = std::exp(-1e-3) - 1.0;  // strain of nodes whose velocity goes with their place
       const Misfit all = misfit(field(one, "temperature"), [&](std::size_t) { return kStart; });
       page.near(fmt::format("rise, one axis, {}, {}", law, update), 1e3 * all.rms,
                 -1e3 * unit * strain * (1.0 - late * step / 0.1), 1e-3, "mK");

@@ -101,7 +101,7 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   d.rigid_bodies = {tool};
   d.body_forces = {{"", {mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start)}}};
   d.tractions = {pulsing_pressure("body")};
-  if (method.update == mpm::UpdateScheme::implicit) {  // which has no loads
+  if (method.update == mpm::UpdateScheme::implicit) {  // clears loads, which implicit steps do not have
     d.body_forces.clear();
     d.tractions.clear();
     if (!planar) d.time.budget = 1e-9;  // every step is cut

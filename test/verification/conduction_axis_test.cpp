@@ -12,7 +12,7 @@ namespace verification {
 namespace conduction_axis_test {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadius = 0.1, kDiffusivity = 1e-4, kEnd = 10.0;  // of conduction_cylinder: D t / R^2 = 0.1
+constexpr double kRadius = 0.1, kDiffusivity = 1e-4, kEnd = 10.0;  // numbers of conduction_cylinder: D t / R^2 = 0.1
 
 double series(double r) {
   static const std::vector<double> zeros = [] {

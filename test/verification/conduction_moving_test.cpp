@@ -10,7 +10,7 @@
 namespace verification {
 namespace conduction_moving_test {
 
-constexpr double kDiffusivity = 0.01;  // of warm_block [m^2/s]
+constexpr double kDiffusivity = 0.01;  // diffusivity of warm_block [m^2/s]
 
 mpm::Simulation run(std::vector<std::string> overrides, double end) {
   mpm::Simulation simulation = start("warm_block", overrides, 1);

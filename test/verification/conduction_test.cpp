@@ -13,7 +13,7 @@ namespace verification {
 namespace conduction_test {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLength = 0.1, kDiffusivity = 1e-4;  // of conduction_slab [m], [m^2/s]
+constexpr double kLength = 0.1, kDiffusivity = 1e-4;  // numbers of conduction_slab [m], [m^2/s]
 constexpr double kEnd = 0.05 * kLength * kLength / kDiffusivity;
 
 double series(double x, double t) {

@@ -24,7 +24,7 @@ namespace consolidation_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Of a load that rises as (1 - cos)/2 over `rise` seconds, from the response to a sudden one.
+/// Response to a load that rises as (1 - cos)/2 over `rise` seconds, from the response to a sudden one.
 template <class Response>
 double after_rise(double t, double rise, Response response) {
   double sum = 0.0;

@@ -32,7 +32,7 @@ std::string cone(double tip) {
 }
 double cone_area(double tip) { return kPi * std::sqrt(2.0) * 1e-6 * tip * tip; }  // [m^2]
 
-/// Of the radius 10.5 mm, from -half to half [mm].
+/// Cylinder of the radius 10.5 mm, from -half to half [mm].
 std::string cylinder(double half) {
   return fmt::format("[{{name: cut, points: [[10.5 mm, {} mm], [10.5 mm, {} mm]], start: tip, traction: gas}}]\n",
                      -half, half);

@@ -1,4 +1,4 @@
-// What growth releases by the energies of the whole run (criterion energy_balance), at both tips of a crack in a plate
+// Release of growth by the energies of the whole run (criterion energy_balance), at both tips of a crack in a plate
 // and at that of a ring about an axis, against J on contours around the tips: one comes from energies of all particles,
 // the other from stress and strain three cells from the tip. Ends are held while the cracks grow.
 //
@@ -38,7 +38,7 @@ double mean_release(const std::string& text, double end, const std::vector<std::
   while (seconds(run) < end - 1e-9) {
     run.advance();
     const double grown = number(run, "crack 1 end growth");
-    if (grown > growth) js.push_back(before);  // of the length that has just ended
+    if (grown > growth) js.push_back(before);  // J of the length that has just ended
     growth = grown;
     before = 0.0;
     for (const std::string& tip : tips)

@@ -19,7 +19,7 @@ constexpr double kArm = 3e-3, kThickness = 1e-3;  // [m]
 struct Beam {
   int cells = 6;     ///< an arm
   double crack = 5;  ///< over the height of an arm
-  int size = 3;      ///< of the contour
+  int size = 3;      ///< size of the contour
   double tip = 0.1;  ///< beyond a node [cells]
 
   double cell() const { return kArm / cells; }
@@ -61,12 +61,12 @@ std::string half(const Beam& beam, bool upper) {
 
 struct Opened {
   Tip tip;
-  double deflection = 0.0;  ///< of an arm's end [m]
+  double deflection = 0.0;  ///< deflection of an arm's end [m]
 };
 
 constexpr double kEndLoad = 0.01;  // [N]
 
-/// Of the slowest vibration of an arm [rad/s].
+/// Rate of the slowest vibration of an arm [rad/s].
 double arm_rate(const Beam& beam) {
   const double clamped = beam.length() + 0.6728 * kArm;  // length of a cantilever that bends as an arm
   return 3.516 / std::sqrt(12.0) * kBarSpeed * kArm / (clamped * clamped);
@@ -150,7 +150,7 @@ TEST(CrackBeam, EndMoments) {
     const Beam beam{6, crack, 3};
     const double rate = arm_rate(beam), period = 2 * kHalfTurn / rate;
     const double sync = sync_of(2.0 * period, 10), end = 10 * sync;
-    const double slope = 12.0 * kMoment / (kThickness * kArm * kArm * kArm);  // of the stress [Pa/m]
+    const double slope = 12.0 * kMoment / (kThickness * kArm * kArm * kArm);  // slope of the stress [Pa/m]
     std::string text = block(beam, crack * kArm + 3 * kArm, end, sync, 1.8 * rate);
     text += fmt::format(
         "loads: [{{traction: {{body: plate, edge: x_min, traction: [\"{:.12g}*(abs(Z)-{:.12g})*(t < {:.12g} ? "

@@ -1,5 +1,5 @@
-// What the tests of explicit cracks share: the material of the crack reference, loads that grow smoothly to a constant,
-// and what the tips report.
+// Helpers that the tests of explicit cracks share: the material of the crack reference, loads that grow smoothly to a
+// constant, and what the tips report.
 //
 // Displacements are so small (strain of 1e-5) that exact solutions of small strain hold. Loads grow as half a wave of a
 // cosine within 0.6 periods of the slowest vibration, which grid damping near its critical rate takes out.

@@ -110,7 +110,7 @@ TEST(CrackCohesive, BlocksPartAtTheToughness) {
     page.near("largest force over area, " + law.name, most, 800.0, 0.01, "Pa");
     page.near("dissipated over area, " + law.name, energy(simulation, "crack_separation") / kArea, 4.0, 1e-6, "J/m²");
     EXPECT_NEAR(energy(simulation, "crack_tractions"), 0.0, 1e-12) << law.name;
-    // What the blocks have lost, up to what the time step leaves open.
+    // Energy that the blocks have lost, up to what the time step leaves open.
     page.near("kinetic and elastic energy lost, over area, " + law.name,
               (start - energy(simulation, "kinetic") - energy(simulation, "elastic")) / kArea, 4.0, 0.002, "J/m²");
     EXPECT_LT(simulation.state().audit.residual, 1e-12) << law.name;
@@ -194,7 +194,7 @@ TEST(CrackCohesive, InterfaceSlidesByItsStiffness) {
     const std::vector<double> x = field(simulation, "x");
     while (seconds(simulation) < 0.15) simulation.advance();
     const std::vector<double> u = field(simulation, "uz");
-    // Of the columns of particles beside the crack, 62.5 mm apart.
+    // Sums of the columns of particles beside the crack, 62.5 mm apart.
     double sum[2] = {0.0, 0.0};
     int count = 0;
     for (std::size_t p = 0; p < x.size(); ++p) {

@@ -28,7 +28,7 @@ double intensity(double length) { return factor(length / kWidth) * kStress * std
 
 struct Strip {
   int cells = 20;
-  int size = 3;            ///< of the contour
+  int size = 3;            ///< size of the contour
   double tip = 0.1;        ///< beyond a node [cells]
   double line = 0.5;       ///< above a node [cells]
   bool left = true;        ///< the crack comes from the left

@@ -84,7 +84,7 @@ TEST(CrackGrowth, StopsWhereItsEnergyIsSpent) {
   look(5e-3, 1.0e-3);
 }
 
-/// What growth of the crack releases by area [J/m^2].
+/// Energy that growth of the crack releases by area [J/m^2].
 double release_at(double length, double opening) {
   return 0.75 * kPlane * std::pow(kArm, 3) * opening * opening / std::pow(length + 0.6728 * kArm, 4);
 }

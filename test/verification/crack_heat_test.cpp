@@ -76,7 +76,7 @@ TEST(CrackHeat, NothingPassesAnOpenCrack) {
     const Numbers first = field(run, "temperature_carried");
     run_until(run, 4e-4);
     const std::array<double, 2> after = halves(run);
-    EXPECT_NEAR(after[0], before[0], 1e-9);  // of 100 K; rounding of 1400 particles and 1300 updates
+    EXPECT_NEAR(after[0], before[0], 1e-9);  // error of 100 K; rounding of 1400 particles and 1300 updates
     EXPECT_NEAR(after[1], before[1], 1e-9);
     const Numbers z = field(run, "z"), last = field(run, "temperature_carried");
     double moved = 0.0, cold = 0.0;
@@ -195,7 +195,7 @@ mpm::Simulation pressed(const std::string& method, const std::string& faces, con
 
 // About 2 s.
 TEST(CrackHeat, ClosedFacesConduct) {
-  constexpr double kConductance = 1e7, kHalf = 10.5e-3, kConductivity = 2e7, kHeat = 1e6;  // of a volume [J/(m^3 K)]
+  constexpr double kConductance = 1e7, kHalf = 10.5e-3, kConductivity = 2e7, kHeat = 1e6;  // heat by volume [J/(m^3 K)]
   // Each half loses 2 h (T - mean) through its face: z tan z = 2 h H / k of its slowest mode, found by bisection.
   double low = 0.0, high = 1.0;
   while (high - low > 1e-14) {
@@ -211,7 +211,7 @@ TEST(CrackHeat, ClosedFacesConduct) {
     const std::array<double, 2> first = halves(run);
     run_until(run, 4e-4);
     const std::array<double, 2> last = halves(run);
-    EXPECT_NEAR(last[0] + last[1], 700.0, 1e-8);  // what one half loses the other gains
+    EXPECT_NEAR(last[0] + last[1], 700.0, 1e-8);  // loss of one half is the gain of the other
     EXPECT_LT(reported(run, "temperature budget error"), 1e-10);
     return std::log((first[0] - first[1]) / (last[0] - last[1])) / 2e-4;
   };

@@ -130,8 +130,8 @@ TEST(CrackIdentities, RigidMotionOpensNothing) {
     const double round_off = single(method) ? 1e-6 : 1e-12;
     EXPECT_NEAR(simulation.state().number("crack length 1"), length, round_off) << method.name;
     EXPECT_NEAR(simulation.state().number("crack 1 end opening"), 0.0, round_off) << method.name;
-    // Of J's scale, 100 kPa times 1 m: squares of strains from round-off, and in single precision 1/2 rho v^2 (2.5 kPa)
-    // times the round-off of strains.
+    // Bound by J's scale, 100 kPa times 1 m: squares of strains from round-off, and in single precision 1/2 rho v^2
+    // (2.5 kPa) times the round-off of strains.
     EXPECT_NEAR(simulation.state().number("crack 1 end j"), 0.0, single(method) ? 1e-2 : 1e-7) << method.name;
     for (const double v : field(simulation, "vx")) ASSERT_NEAR(v, 2.0, 10 * round_off) << method.name;
     for (const double v : field(simulation, "vz")) ASSERT_NEAR(v, 1.0 - 9.81 * 0.2, 10 * round_off) << method.name;
@@ -222,7 +222,7 @@ std::vector<Method> actions() {
   return list;
 }
 
-// What faces do to each other adds nothing to the momentum.
+// Action of faces on each other adds nothing to the momentum.
 TEST(CrackIdentities, MomentumIsKept) {
   for (const Method& action : actions()) {
     for (const char* velocity : {"[\"0.3*z\", \"-0.3*(z-0.8)*(1+x)\"]", "[\"0.3*z\", \"0.3*(z-0.8)*(1+x)\"]"}) {
@@ -325,7 +325,7 @@ TEST(CrackIdentities, SlowRotationOpensNothing) {
   advance(simulation, 20);
   const mpm::SolverState state = simulation.state();
   EXPECT_NEAR(state.number("crack 1 end j"), 0.0, 0.02 * 0.5);
-  EXPECT_NEAR(state.number("crack 1 end opening"), 0.0, 2e-3 * 0.005 * 0.75);  // of the way of the plate's edges
+  EXPECT_NEAR(state.number("crack 1 end opening"), 0.0, 2e-3 * 0.005 * 0.75);  // part of the way of the plate's edges
   // A surface moves as its nodes do in the mean by mass, and that mean lies up to a quarter of a cell beside it.
   EXPECT_NEAR(state.number("crack length 1"), length, 0.25 * 0.125 * 0.3 * 0.0174533);
 }

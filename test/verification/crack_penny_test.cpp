@@ -40,7 +40,7 @@ cracks:
 
 double infinite() { return 4.0 * (1.0 - kPoisson * kPoisson) * kLoad * kLoad * kRadius / (3.14159265358979 * kYoung); }
 
-/// Of a correction that is `at_half` at a/b = 1/2 and follows a power of a/b.
+/// Factor of a correction that is `at_half` at a/b = 1/2 and follows a power of a/b.
 double factor(double at_half, double power) { return 1.0 + at_half * std::pow(1.01, power); }
 
 double j_of(const std::string& loads, const std::vector<std::string>& overrides) {
@@ -79,7 +79,7 @@ TEST(CrackPenny, RodOfTwiceItsRadius) {
         // Asked. Nodal values cost up to 1.4 % at 2 cells (crack reference 4.2), a tip off by 0.15 cells 2 %.
         page.near(fmt::format("J / J∞, {}, {}, {} cells", name, form, size), values.back(), free, 0.02, "");
       }
-      // Of contours of 2 and 5 cells: 1.2 %, the error of the trapezoid rule at 2 cells.
+      // Ratio of contours of 2 and 5 cells: 1.2 %, the error of the trapezoid rule at 2 cells.
       page.near(fmt::format("J at {} over J at 5 cells, {}, {}", sizes.front(), name, form),
                 values.front() / values.back(), 1.0, 0.015, "");
       panel.points(name + ", " + form, sizes, values);

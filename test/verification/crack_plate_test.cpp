@@ -19,9 +19,9 @@ struct Plate {
   int half_crack = 8;            ///< [cells]
   int half_width = 56;           ///< [cells]
   int half_height = 56;          ///< [cells]
-  int size = 3;                  ///< of the contour
+  int size = 3;                  ///< size of the contour
   double ramp = 0.6, end = 2.0;  ///< periods of the plate's slowest stretching
-  double damping = 0.9;          ///< of the rate of that stretching; at 2 it is critical
+  double damping = 0.9;          ///< part of the rate of that stretching; at 2 it is critical
   std::string split = "interaction", growth, fracture, limit;
 
   double infinite() const { return kStress * std::sqrt(kHalfTurn * half_crack * kCell); }  ///< [Pa m^0.5]
@@ -92,7 +92,7 @@ TEST(CrackPlate, Inclined) {
   for (const double angle : {75.0, 60.0, 45.0, 30.0}) {
     Plate plate;
     plate.angle = angle;
-    plate.damping = 1.8;  // of vibrations exp(-0.9 * 2 pi * 1.4), 0.04 %, are left
+    plate.damping = 1.8;  // leaves exp(-0.9 * 2 pi * 1.4), 0.04 %, of vibrations
     const mpm::Simulation simulation = pull(plate);
     for (const std::string end : {"start", "end"}) {
       const Tip found = tip(simulation, end);

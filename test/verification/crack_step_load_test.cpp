@@ -95,7 +95,7 @@ TEST(CrackStepLoad, StressIntensityFollowsFreund) {
 // a time, so J is a sawtooth of which the mean over whole cells counts.
 struct Running {
   double mean, least, most;  // J over that of a tip at rest
-  double place, asked;       // of the tip at the end, m
+  double place, asked;       // place of the tip at the end, m
 };
 
 Running run_at(double rayleigh, const char* transfer) {

@@ -6,7 +6,7 @@
 namespace verification {
 namespace diffusion_test {
 
-constexpr double kLength = 1e-3, kDiffusivity = 1e-9, kSaturation = 0.2;  // of membrane.yaml
+constexpr double kLength = 1e-3, kDiffusivity = 1e-9, kSaturation = 0.2;  // numbers of membrane.yaml
 
 TEST(Diffusion, SteadyMembrane) {
   Page page("transport", "membrane", "A solute through a membrane");
@@ -27,7 +27,7 @@ TEST(Diffusion, SteadyMembrane) {
     const Misfit all = misfit(mu, [&](std::size_t p) { return 0.8 - 0.5 * x[p] / kLength; });
     page.near_absolute("largest error between two potentials, " + shape, 200.0 * all.most, 0.0, 0.5,
                        "% of the difference");
-    // What it has taken up: the mean potential, 0.55, times the saturation and 1 mm over 1 m^2.
+    // Content that it has taken up: the mean potential, 0.55, times the saturation and 1 mm over 1 m^2.
     page.near("content taken up, " + shape, 1e3 * reported(held, "concentration content"),
               1e3 * 0.55 * kSaturation * kLength, 0.005, "litre");
     mpm::Simulation fed =

@@ -13,7 +13,7 @@
 namespace verification {
 namespace energy_balance_test {
 
-constexpr double kOpen = 0.01;  // of the energy spent that may have no account
+constexpr double kOpen = 0.01;  // part of the energy spent that may have no account
 
 /// Energy of this kind that came or went since the start [J].
 double since(const mpm::EnergyReport& before, const mpm::EnergyReport& after, const std::string& name) {

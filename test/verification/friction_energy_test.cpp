@@ -12,7 +12,7 @@
 namespace verification {
 namespace friction_energy_test {
 
-constexpr double kMass = 500.0 * 0.4 * 0.2;  // of the block of block_on_plate [kg/m]
+constexpr double kMass = 500.0 * 0.4 * 0.2;  // mass of the block of block_on_plate [kg/m]
 
 double place_of(const mpm::Simulation& simulation) { return mean_of(simulation, "x", "block"); }
 

@@ -50,7 +50,7 @@ TEST(ImplicitAxisymmetric, AColumnRunsOutAsLubeSaw) {
   verification::run_until(run, 2.0);
   const std::vector<double> r = verification::field(run, "x");
   const double run_out = *std::max_element(r.begin(), r.end()) / kRadius - 1.0;
-  EXPECT_NEAR(run_out / 1.24, 0.9, 0.15);  // what falls loses a part of its volume (doc/implicit.md)
+  EXPECT_NEAR(run_out / 1.24, 0.9, 0.15);  // sand that falls loses a part of its volume (doc/implicit.md)
   RecordProperty("over_published", fmt::format("{:.3f}", run_out / 1.24));
   const mpm::EnergyReport after = run.state().energy;
   const double fallen = before.of("potential") - after.of("potential");

@@ -86,7 +86,7 @@ TEST(ImplicitLoads, ABodyForceIsGravity) {
     const std::vector<double> z = fallen(0.0, loads);
     double most = 0.0;
     for (std::size_t i = 0; i < z.size(); ++i) most = std::max(most, std::abs(z[i] - by_gravity[i]));
-    EXPECT_LT(most, 1e-8) << loads;  // of 1 mm; nodes that hardly carry anything are given some mass
+    EXPECT_LT(most, 1e-8) << loads;  // error in 1 mm; nodes that hardly carry anything are given some mass
   }
 }
 

@@ -34,7 +34,7 @@ double asleep(const mpm::Simulation& run) { return verification::number(run, "as
 struct Drawn {
   double force;           ///< on the blade along its way, mean of the last second [N]
   double sleeping[3];     ///< part of the particles asleep before the blade moves, in the middle and at the end
-  double residual = 0.0;  ///< of momentum
+  double residual = 0.0;  ///< residual of momentum
 };
 Drawn draw(const std::string& sleep) {
   mpm::Simulation run = start_text(bed(sleep));

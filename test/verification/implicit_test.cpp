@@ -98,7 +98,7 @@ TEST(ImplicitStep, APressedWheelMeetsItsForceOnFineCells) {
   RecordProperty("fine", fmt::format("{:.4g}", fine));
 }
 
-// What rests on friction does not creep: in 10 s by less than a thousandth of a cell (exact: not at all).
+// Soil that rests on friction does not creep: in 10 s by less than a thousandth of a cell (exact: not at all).
 TEST(ImplicitStep, SoilAtRestStays) {
   for (const char* step : {"0.005", "0.02"}) {
     mpm::Simulation run =

@@ -98,7 +98,7 @@ Pressed in_plane(mpm::ShapeKind shape, double cell) {
   const std::vector<mpm::Vec3> first = body.positions;
   d.bodies = {body};
   d.walls[0].kind = d.walls[4].kind = mpm::WallKind::slip;
-  for (const int face : {0, 4}) {  // where a row ends on a plane of symmetry, the wall carries it
+  for (const int face : {0, 4}) {  // leaves to the wall a row that ends on a plane of symmetry
     mpm::TractionDefinition pressure;
     pressure.body = "cylinder";
     pressure.face = face;

@@ -1,5 +1,5 @@
-// What crosses a border between ranks, or happens on one side of it alone: a tool that ploughs through the material of
-// several ranks, a run that is asked to stop on one of them, and one that fails there. Ranks are threads.
+// Tests of what crosses a border between ranks, or happens on one side of it alone: a tool that ploughs through the
+// material of several ranks, a run that is asked to stop on one of them, and one that fails there. Ranks are threads.
 // Cost: 3 s.
 #include <gtest/gtest.h>
 

@@ -41,7 +41,7 @@ struct Flow {
   double residual = 0.0, mass_before = 0.0, mass_after = 0.0;
 };
 
-/// Whether the ids of all ranks' particles are those from 0 on, each once.
+/// True if the ids of all ranks' particles are those from 0 on, each once.
 bool all_there_once(mpm::Communicator& ranks, const mpm::Simulation& simulation) {
   mpm::ParticleColumns own;
   simulation.read_own_particles({"x"}, {}, own);

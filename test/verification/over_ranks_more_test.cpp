@@ -1,4 +1,4 @@
-// What single parts of a scene do over several ranks, each in a scene that needs it: motion, energies, impulses and
+// Single parts of a scene over several ranks, each in a scene that needs it: motion, energies, impulses and
 // numbers as on one process, and checkpoints. Ranks are threads (over_ranks_run.hpp).
 //
 // Runs are asked to be equal to 1e-10 of the momentum that was exchanged in a hundred steps, as in over_ranks_test.cpp;

@@ -20,15 +20,15 @@
 namespace verification {
 namespace over_ranks {
 
-/// What is compared.
+/// Values that are compared.
 struct Outcome {
   std::uint64_t steps = 0, state_hash = 0, memory_hash = 0;
   double seconds = 0.0;
   double exchanged = 0.0, residual = 0.0, mass = 0.0;
-  double balance = 0.0;                              ///< of energies, how much it has changed since the start [J]
+  double balance = 0.0;                              ///< change of the balance of energies since the start [J]
   double carried = 0.0;                              ///< sum of m |v| [kg m/s]
   std::vector<std::vector<double>> velocity, place;  ///< [axis][id]
-  std::vector<double> around;                        ///< of each axis, its length if it is periodic, else 0 [m]
+  std::vector<double> around;                        ///< length along each axis if it is periodic, else 0 [m]
   std::vector<std::vector<double>> transported;      ///< [quantity][id]
   std::vector<mpm::ContactReport> contacts;
   std::vector<mpm::PairReport> pairs;
@@ -154,7 +154,7 @@ inline double largest(const std::vector<std::vector<double>>& values) {
   return most;
 }
 
-/// Of the pairs of deformable bodies and of the numbers of modules.
+/// Compares the pairs of deformable bodies and the numbers of modules.
 inline void expect_equal_reports(const Outcome& over, const Outcome& alone, double part) {
   ASSERT_EQ(over.pairs.size(), alone.pairs.size());
   for (std::size_t i = 0; i < alone.pairs.size(); ++i) {
@@ -174,7 +174,7 @@ inline void expect_equal_reports(const Outcome& over, const Outcome& alone, doub
     const std::size_t i = &number - alone.numbers.data();
     EXPECT_EQ(over.numbers[i].name, number.name);
     EXPECT_NEAR(over.numbers[i].value, number.value, 100.0 * part * scale) << number.name;
-    if (number.name.find("budget error") != std::string::npos) {  // of what is transported
+    if (number.name.find("budget error") != std::string::npos) {  // error of what is transported
       EXPECT_LT(over.numbers[i].value, std::max(1e-12, 10.0 * number.value)) << number.name;
     }
   }

@@ -28,7 +28,7 @@ const std::vector<std::string> kWheelAwake = awake({"grid.cell=0.08"}, {"soil"})
 const std::vector<std::string> kTouching = {"rigid_bodies.probe.pose.position=[0, 120.5 mm]",
                                             R"(rigid_bodies.probe.motion={velocity: [0, "-0.5"]})"};
 
-/// What is changed in a scene.
+/// Changes of a scene.
 std::vector<Case> cases_of(const std::string& name) {
   if (name == "speed_block_3d_million") return {{name, {"grid.cell=0.04"}}};
   if (name == "foam_probe") return {{name, kTouching}};

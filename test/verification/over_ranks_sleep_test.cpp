@@ -18,7 +18,7 @@ namespace over_ranks_sleep_test {
 
 const Case kCase{"ranks_sleep", {}};
 
-/// Of every sync point.
+/// Values of every sync point.
 struct History {
   std::vector<mpm::Vec3> forces;  ///< on the blade [N]
   std::vector<double> asleep;     ///< particles

@@ -1,4 +1,4 @@
-// What a rank has at its start: the particles that lie in its blocks, with the numbers and bits that one process gives
+// Particles of a rank at its start: those that lie in its blocks, with the numbers and bits that one process gives
 // them, whatever they are made from: regions, jitter, bodies that are cut out, functions of place, the weight of soil.
 // And that a run goes on from there as from a definition of which every rank had all.
 // Cost: 15 s.
@@ -137,7 +137,7 @@ TEST_P(OverRanksStart, HasItsOwnParticlesOfThoseOfOneProcess) {
   }
 }
 
-/// What a run begins with.
+/// State that a run begins with.
 struct Begun {
   std::uint64_t state_hash = 0, memory_hash = 0, later_hash = 0, particles = 0;
   std::vector<std::vector<double>> fields;  ///< by id

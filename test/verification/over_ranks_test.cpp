@@ -95,7 +95,7 @@ TEST_F(OverRanksCheckpoint, GoesOnToTheBitWhileAToolMoves) {
   EXPECT_EQ(resumed.memory_hash, whole.memory_hash);
 }
 
-// What a free body, points of contact, heat, pairs and conditions remember, too.
+// Memory of what a free body, points of contact, heat, pairs and conditions remember, too.
 TEST_F(OverRanksCheckpoint, KeepsWhatModulesRemember) {
   for (const char* scene : {"ranks_free", "ranks_pair", "ranks_chute", "terzaghi_column", "swelling_strip"}) {
     SCOPED_TRACE(scene);

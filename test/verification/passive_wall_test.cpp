@@ -95,7 +95,7 @@ TEST(PassiveWall, ForceIsRankines) {
   page.near("the same without a choice", push(coarse, kBeginFrom, kBeginTo).limit * kRankine / 1e3, kRankine / 1e3, 0.1,
             "kN");
 
-  // What a scene gets without asking: no match, no dilation. Asked: 5 %.
+  // Material that a scene gets without asking: no match, no dilation. Asked: 5 %.
   for (const int degrees : {30, 35}) {
     const double kp = std::pow(std::tan((45.0 + 0.5 * degrees) * std::acos(-1.0) / 180.0), 2);
     const Push run = push({"materials.sand.match=mohr_coulomb", "materials.sand.dilation_angle=0",

@@ -49,7 +49,7 @@ double force_of_disk(double pressed) {
 
 double hertz_force(double contact) { return 4.0 / 3.0 * std::pow(contact, 3) / (kRadius * kPlane); }
 
-/// How far the poles of a sphere come towards its centre under Hertz's pressure on both caps [m].
+/// Approach of the poles of a sphere to its centre under Hertz's pressure on both caps [m].
 double pole(double contact) {
   constexpr int kPieces = 400;
   const double shear = 0.5 * kYoung / (1.0 + kPoisson), rim = std::asin(contact / kRadius), nu = kPoisson;

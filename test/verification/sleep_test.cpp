@@ -16,7 +16,7 @@ namespace sleep_test {
 struct Reached {
   double impulse = 0.0;         ///< on the plate, upwards [N s]
   double awake = 0.0;           ///< mean part of the particles that are awake
-  double residual = 0.0;        ///< of the audit
+  double residual = 0.0;        ///< residual of the audit
   std::vector<double> surface;  ///< heights, the mean of the highest particles in columns of four cells [m]
 };
 

@@ -1,4 +1,4 @@
-// What sleeps wakes when its support goes, and soil that would fall does not fall asleep. Costs 8 s.
+// Material that sleeps wakes when its support goes, and soil that would fall does not fall asleep. Costs 8 s.
 #include <gtest/gtest.h>
 
 #include <string>

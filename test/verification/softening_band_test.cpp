@@ -19,7 +19,7 @@ constexpr double kDegree = kPi / 180.0;
 /// cells in its middle is weaker by 2 %, where the band begins.
 struct Fallen {
   double peak, residual;  ///< shear stress [Pa]
-  double way;             ///< of the lid at half of the fall [m]
+  double way;             ///< way of the lid at half of the fall [m]
 };
 Fallen sheared(const std::string& law, double cell) {
   const std::string h = std::to_string(cell);

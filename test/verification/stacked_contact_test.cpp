@@ -17,8 +17,8 @@ namespace stacked_contact_test {
 
 constexpr double kCell = 0.1, kYoung = 1e6, kSpeed = 0.1;  // [m], [Pa]; of the plate [m/s]
 
-/// How fast the lower body (field 0) closes on the upper one (field 1) when all stages have acted, as a mean over their
-/// common nodes by reduced mass [m/s].
+/// Speed at which the lower body (field 0) closes on the upper one (field 1) when all stages have acted, as a mean over
+/// their common nodes by reduced mass [m/s].
 class Closing final : public mpm::Stage {
  public:
   std::string name() const override { return "closing"; }
@@ -72,7 +72,7 @@ std::array<double, 3> impulses(mpm::Simulation& run) {
 struct Pressed {
   std::array<double, 3> forces{};  ///< on the tool, between the bodies, on the floor, over the exact one
   double closing = 0.0;            ///< over the plate's speed
-  double overlap = 0.0;            ///< of the two faces in the end [cells]
+  double overlap = 0.0;            ///< overlap of the two faces in the end [cells]
 };
 
 /// Until the plate has sunk by 0.4 cells; means over the second half of that.

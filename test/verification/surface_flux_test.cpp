@@ -1,4 +1,5 @@
-// What faces take: a given flux, a sudden temperature, convection, radiation; and sources inside. A slab along a line.
+// Content that faces take: a given flux, a sudden temperature, convection, radiation; and sources inside. A slab along
+// a line.
 //
 // Exact: flux q into a half space raises its surface by 2 q sqrt(D t / pi) / k, and at depth x by that times
 // sqrt(pi) ierfc(x / (2 sqrt(D t))); a sudden step of its surface spreads as erfc(x / (2 sqrt(D t))). Source:
@@ -13,7 +14,7 @@ namespace verification {
 namespace surface_flux_test {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLength = 0.1, kConductivity = 100.0, kCapacity = 1e6, kDiffusivity = 1e-4;  // of heated_slab
+constexpr double kLength = 0.1, kConductivity = 100.0, kCapacity = 1e6, kDiffusivity = 1e-4;  // numbers of heated_slab
 constexpr double kStefanBoltzmann = 5.670374419e-8;  // [W/(m^2 K^4)], CODATA 2018
 
 mpm::Simulation heated(const std::vector<std::string>& overrides) { return start("heated_slab", overrides, 1); }

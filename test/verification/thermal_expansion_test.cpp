@@ -13,7 +13,7 @@
 namespace verification {
 namespace thermal_expansion_test {
 
-constexpr double kYoung = 1e6, kPoisson = 0.3;  // of warm_bar [Pa]
+constexpr double kYoung = 1e6, kPoisson = 0.3;  // numbers of warm_bar [Pa]
 constexpr double kWarmed = 100.0, kEnd = 0.8;   // [K], [s]
 
 std::vector<std::string> law_overrides(const std::string& law) {
@@ -109,7 +109,7 @@ TEST(ThermalExpansion, HeldBar) {
       const Numbers stress = field(simulation, ring ? "szz" : "sxx");
       const double unit = kYoung * 1e-7 * kWarmed;
       const Misfit all = misfit(stress, [&](std::size_t) { return holding.stress * unit; });
-      // Of second order in the strain of 1e-5 times the moduli's ratios: 1e-4.
+      // Error of second order in the strain of 1e-5 times the moduli's ratios: 1e-4.
       page.near_absolute(holding.name + ", " + law + ": largest error of the stress over E α ΔT", all.most / unit, 0.0,
                          1e-4, "");
     }

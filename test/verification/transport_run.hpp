@@ -1,4 +1,4 @@
-// What the tests of transport share: the balance of a quantity, and errors of what particles see.
+// Helpers that the tests of transport share: the balance of a quantity, and errors of what particles see.
 #pragma once
 
 #include <gtest/gtest.h>

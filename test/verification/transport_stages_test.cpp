@@ -14,8 +14,8 @@ namespace verification {
 namespace transport_stages_test {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kNodes = 33;                             // of the chain, its ends held
-constexpr double kCapacity = 2.0, kLink = 3.0;         // of a node, and between two
+constexpr int kNodes = 33;                             // nodes of the chain, its ends held
+constexpr double kCapacity = 2.0, kLink = 3.0;         // capacity of a node, and link between two
 constexpr double kStable = kCapacity / (4.0 * kLink);  // half of the longest stable step, as (6.32)
 
 struct Chain {

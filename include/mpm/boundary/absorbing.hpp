@@ -52,7 +52,7 @@ double face_mass(ShapeKind shape, int particles_per_direction);
 /// Particles near cracks, which give to several fields and are listed in none of them.
 struct ParticlesNearCracks {
   const NodeChoice* choice = nullptr;       ///< null without cracks
-  std::vector<std::uint8_t> gives_to = {};  ///< of each set, whether they give to the face's field
+  std::vector<std::uint8_t> gives_to = {};  ///< for each set, 1 if its particles give to the face's field
 };
 
 class Absorbing final : public FieldStage {
@@ -86,11 +86,11 @@ class Absorbing final : public FieldStage {
   /// A node of the face and those beyond it: nodes_ from `first` on.
   struct Column {
     int first, count;
-    ElasticWaves waves;  ///< of the material there
-    bool whole = true;   ///< whether this rank has all of its nodes that may carry material
-    bool counts = true;  ///< whether sums count it here
+    ElasticWaves waves;  ///< wave speeds of the material there
+    bool whole = true;   ///< true if this rank has all of its nodes that may carry material
+    bool counts = true;  ///< true if sums count it here
   };
-  /// Of particles at the face, by mass.
+  /// Sums over particles at the face, by mass.
   struct WaveSum {
     std::uint64_t column = 0;
     double mass = 0.0, pressure = 0.0, shear = 0.0;
@@ -102,7 +102,7 @@ class Absorbing final : public FieldStage {
     }
   };
   static constexpr std::uint64_t kAllColumns = ~std::uint64_t{0};
-  /// What a column carries.
+  /// Load of a column.
   struct Load {
     double mass = 0.0, beyond = 0.0;  ///< in all; of it beyond the face [kg]
     Vec3 velocity = Vec3::Zero();     ///< mean [m/s]
@@ -114,7 +114,7 @@ class Absorbing final : public FieldStage {
   void find_nodes(const Grid& grid);
   void find_waves(const Grid& grid);
   void find_counted(const Grid& grid);
-  /// Of this rank's particles at the face.
+  /// Sums over this rank's particles at the face.
   std::vector<WaveSum> sum_waves(const Grid& grid) const;
   std::uint64_t id_on_face(const GridLayout& layout, std::array<int, 3> node) const;
 
@@ -129,8 +129,8 @@ class Absorbing final : public FieldStage {
   std::vector<Column> columns_;
   std::unordered_map<std::uint64_t, Vec3> held_;  ///< accelerations, by column [m/s^2]
   bool started_ = false, held_by_all_ = false;
-  bool counted_ = false;          ///< whether columns_ say what counts here
-  std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
+  bool counted_ = false;          ///< true if columns_ say what counts here
+  std::uint64_t generation_ = 0;  ///< generation of the block table that nodes_ was made from
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
   double work_ = 0.0;          ///< on the material since the start; negative [J]

@@ -14,7 +14,7 @@
 
 namespace mpm {
 
-/// Why a particle near the axis is outside the grid.
+/// Reason why a particle near the axis is outside the grid.
 std::optional<OutsideReason> outside_at_axis(const GridLayout& layout, const ParticleSet& set, int particle);
 
 class Axis final : public FieldStage {
@@ -54,7 +54,7 @@ class Axis final : public FieldStage {
   ImpulseAccount account_;
   double given_ = 0.0;  ///< radial, in this step [N s]
   std::vector<Node> nodes_;
-  std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
+  std::uint64_t generation_ = 0;  ///< generation of the block table that nodes_ was made from
 };
 
 /// Books the radial impulse of the internal forces, which is that of the hoop stress (their sum over the nodes is zero

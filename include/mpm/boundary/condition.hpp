@@ -31,7 +31,7 @@ class ConditionError : public ModuleError {
   using ModuleError::ModuleError;
 };
 
-/// What a scene says of one condition.
+/// Definition of one condition in a scene.
 struct ConditionDefinition {
   /// Its name, surface, pose at the start and motion; friction and reach have no part.
   RigidBodyDefinition region;
@@ -93,7 +93,7 @@ class VelocityConditions final : public FieldStage {
     NodeRef ref;
     Vec3 position;
     Vec3 direction;
-    int first, count;   ///< of parts_
+    int first, count;   ///< range of parts_
     double start, end;  ///< velocity along the direction as the step begins and ends [m/s]
   };
   struct Part {
@@ -108,7 +108,7 @@ class VelocityConditions final : public FieldStage {
 
   std::string title(const Condition& condition) const;
   void check_walls(const Condition& condition, const std::array<int, 3>& node, const GridLayout& layout) const;
-  /// Of the conditions found on one node, its directions.
+  /// Makes the directions held at a node from the conditions found there.
   void join(const Found* begin, const Found* end, const Grid& grid);
   double value(const Held& held, double time) const;
   /// `velocity`: along the direction, at which the impulse works [m/s].
@@ -121,7 +121,7 @@ class VelocityConditions final : public FieldStage {
   std::vector<Part> parts_;
   bool moving_ = false;           ///< any region does
   bool ended_ = false;            ///< momentum of this step has been updated
-  std::uint64_t generation_ = 0;  ///< of the block table that held_ was made from
+  std::uint64_t generation_ = 0;  ///< generation of the block table that held_ was made from
   double work_ = 0.0;             ///< on the material since the start [J]
 };
 

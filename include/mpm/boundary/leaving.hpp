@@ -49,15 +49,15 @@ class Leaving final : public Module {
   }
 
  private:
-  /// What one call of put_back() did.
+  /// Result of one call of put_back() did.
   struct Returned {
-    bool all = true;  ///< whether every particle could be put back
+    bool all = true;  ///< true if every particle could be put back
     Vec3 given = Vec3::Zero();
     double taken = 0.0;
     std::vector<std::uint32_t> first;  ///< ids of those that have not left before
   };
   bool has_left(std::uint32_t id) const { return id < left_.size() && left_[id] != 0; }
-  /// Of this rank's particles.
+  /// Puts back this rank's particles.
   Returned put_back_own();
   /// Makes what each rank did what all of them did.
   void share(Returned& returned);

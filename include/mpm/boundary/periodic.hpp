@@ -21,14 +21,14 @@
 
 namespace mpm {
 
-/// How far centres may be beyond a periodic face between two sorts [cells]: what a tile reaches, and more.
+/// Distance that centres may be beyond a periodic face between two sorts [cells]: what a tile reaches, and more.
 inline constexpr double kPeriodicReach = 2.0;
 
 /// Puts every particle where its nearest node is one of the domain, 0 to the number of cells less one, along periodic
 /// axes. Those that are not finite stay. Returns the sum of mass times the way that it was put [kg m].
 Vec3 put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads);
 
-/// Of a body that reaches a periodic face, which one: "x_max"; else empty.
+/// Name of the periodic face that a body reaches: "x_max"; else empty.
 std::string periodic_face_reached(const RigidBody& body, const GridLayout& layout);
 
 /// Puts particles around before every sort.

@@ -64,11 +64,11 @@ class Wall final : public FieldStage {
     std::uint64_t id;
     Hold hold;    ///< in the step before, then in this one
     bool counts;  ///< to sums, which over several ranks it does on one
-    // Of a wall that always holds, along the grid's axes:
+    // For a wall that always holds, along the grid's axes:
     Vec3 removed = Vec3::Zero();  ///< velocity for strain at the start of the step; 0 after another wall [m/s]
     Vec3 at_end = Vec3::Zero();   ///< factor of c1 in what it takes [N s]
   };
-  /// What the wall does in a step.
+  /// Actions of the wall in a step.
   struct Deeds {
     Vec3 given = Vec3::Zero();  ///< [N s]
     SurfaceLoss loss;
@@ -113,14 +113,14 @@ class Wall final : public FieldStage {
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
   SurfaceLoss loss_;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> carrying_;  ///< of nodes_, those with material in this step
+  std::vector<std::uint32_t> carrying_;  ///< indices in nodes_ of those with material in this step
   ChunkSums<Deeds> deeds_;
   std::vector<NodeLoss> losses_;  ///< frictional only: at nodes_, in this step
   HeatSink* heat_;
-  std::vector<double> rubbed_;    ///< of nodes_, by friction, not told yet [J]
-  bool acted_ = false;            ///< whether the step's impulses were given
-  HeldNodes held_;                ///< of a frictional wall, and with USF
-  std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
+  std::vector<double> rubbed_;    ///< heat of friction at each of nodes_, not told yet [J]
+  bool acted_ = false;            ///< true if the step's impulses were given
+  HeldNodes held_;                ///< nodes held, for a frictional wall and with USF
+  std::uint64_t generation_ = 0;  ///< generation of the block table that nodes_ was made from
 };
 
 }  // namespace mpm

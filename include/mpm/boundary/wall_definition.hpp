@@ -1,4 +1,4 @@
-// What a scene says of the faces of the domain.
+// Definition of the faces of the domain in a scene.
 #pragma once
 
 #include "mpm/rigid/contact_law.hpp"
@@ -12,7 +12,7 @@ constexpr bool is_wall(WallKind kind) {
   return kind != WallKind::none && kind != WallKind::absorbing && kind != WallKind::periodic;
 }
 
-/// What a scene says of a face of the domain.
+/// Definition of a face of the domain in a scene.
 struct WallDefinition {
   WallKind kind = WallKind::none;
   FrictionLaw friction;  ///< frictional only

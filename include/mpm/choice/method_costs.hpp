@@ -1,4 +1,4 @@
-// What methods cost for an error: the runs of a study that a choice of method is made from, in a small table.
+// Costs of methods for an error: the runs of a study that a choice of method is made from, in a small table.
 //
 //   suite,method,error,cost
 //   square_large,ugimp/usf/flip,0.0123,45678

@@ -1,4 +1,4 @@
-// Which method to take: the rule that chooses among measured methods, by suites that look like the task.
+// Choice of a method: the rule that chooses among measured methods, by suites that look like the task.
 //
 // For an error: a method's number on a suite is its cost of coming below the error there, over the least cost that any
 // candidate has. On a suite where no candidate comes below it, the number is the method's smallest error over the
@@ -24,15 +24,15 @@
 
 namespace mpm::choice {
 
-/// What is to be kept: exactly one of the two.
+/// Limit to be kept: exactly one of the two.
 struct Budget {
   std::optional<double> error;  ///< relative
   std::optional<double> cost;   ///< over that of uGIMP/USF/FLIP for 1 %
 };
 
-/// What the numbers of a suite are.
+/// Meaning of the numbers of a suite.
 enum class Judged {
-  cost,            ///< of reaching the error
+  cost,            ///< cost of reaching the error
   smallest_error,  ///< that was measured; the error is not reached
   error_at_cost,
 };
@@ -46,7 +46,7 @@ struct Standing {
 struct JudgedSuite {
   std::string name;
   Judged by = Judged::cost;
-  double least = 0.0;  ///< what numbers are relative to: a cost, or an error
+  double least = 0.0;  ///< reference that numbers are relative to: a cost, or an error
 };
 
 struct Preference {

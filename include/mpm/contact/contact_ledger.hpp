@@ -22,11 +22,11 @@ struct ContactImpulse {
   Vec3 impulse;                   ///< [N s]
   Vec3 normal;                    ///< out of the body
   Vec3 arm;                       ///< from the body's origin [m]
-  Vec3 velocity;                  ///< of the body's surface there [m/s]
-  Vec3 mean_slip = Vec3::Zero();  ///< of the material against it: mean of the ends of the last step and this [m/s]
+  Vec3 velocity;                  ///< velocity of the body's surface there [m/s]
+  Vec3 mean_slip = Vec3::Zero();  ///< slip of the material against it, mean of the ends of the last step and this [m/s]
 };
 
-/// What contact has done since the start.
+/// Sums of what contact has done since the start.
 struct ContactSums {
   Vec3 impulse = Vec3::Zero();          ///< on the body [N s]
   Vec3 angular_impulse = Vec3::Zero();  ///< about the body's origin as it moves [N m s]
@@ -35,7 +35,7 @@ struct ContactSums {
   Vec3 pressed_arm = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   double area_time = 0.0;               ///< area in contact, over time [m^2 s]
   double friction_energy = 0.0;         ///< taken by sliding [J]
-  double held_energy = 0.0;             ///< of motion that contact held up [J]
+  double held_energy = 0.0;             ///< energy of motion that contact held up [J]
   double work = 0.0;                    ///< done by the body on the material [J]
 };
 
@@ -45,7 +45,7 @@ class ContactLedger {
   ContactLedger(const RigidBody& body, bool axisymmetric);
 
   void give(const ContactImpulse& given);
-  /// What impulses took that were given without a slip.
+  /// Adds what impulses took that were given without a slip.
   void add_loss(const SurfaceLoss& loss) {
     sums_.friction_energy += loss.friction;
     sums_.held_energy += loss.held;
@@ -76,7 +76,7 @@ class ContactLedger {
  private:
   /// The state of the sums at a reader's last call.
   struct Reader {
-    double time = 0.0;  ///< of its last call [s]
+    double time = 0.0;  ///< time of its last call [s]
     ContactSums last;
     Wrench peak;  ///< since then
   };

@@ -81,7 +81,7 @@ class ContactNodes {
   struct Scratch {
     std::vector<NodeMaterial> materials;
     std::vector<NodePair> pairs;
-    std::vector<Vec3> velocities, accelerations;  ///< of the materials before contact
+    std::vector<Vec3> velocities, accelerations;  ///< velocities and accelerations of the materials before contact
     std::vector<Vec3> gathered;                   ///< velocities of the materials as the step began, before
   };
 
@@ -95,12 +95,12 @@ class ContactNodes {
   void hold_nodes(Pass pass, double dt, FieldOf&& velocity);
   void update_node(Block& block, const Node& node, double dt, Scratch& scratch);
   void keep_held();
-  /// Of held_, without what is there twice.
+  /// Sorts held_ and removes what is there twice.
   void put_in_order();
 
   Fields& fields_;
   int threads_;
-  std::vector<Held> held_;  ///< what was held, in ascending order of node and fields
+  std::vector<Held> held_;  ///< nodes and fields held, in ascending order of node and fields
 };
 
 }  // namespace mpm

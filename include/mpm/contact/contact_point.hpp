@@ -12,7 +12,7 @@ struct ContactPoint {
   std::uint32_t particle = 0;        ///< id of the particle
   Vec3 place = Vec3::Zero();         ///< world [m]
   Vec3 normal = Vec3::Zero();        ///< out of the body
-  Vec3 velocity = Vec3::Zero();      ///< of the body there [m/s]
+  Vec3 velocity = Vec3::Zero();      ///< velocity of the body there [m/s]
   double gap = 0.0;                  ///< distance to the body, negative inside [m]
   double area = 0.0;                 ///< area of the surface that the point represents [m^2]
 };

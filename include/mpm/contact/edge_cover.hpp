@@ -1,4 +1,4 @@
-// Which part of a node belongs to the material before a tool's face, where the face ends.
+// Part of a node that belongs to the material before a tool's face, where the face ends.
 //
 // A node near the edge of a face stands for material before the face, which the tool pushes, and for material beyond
 // the edge, which it does not: below a blade, beside a plate. The node has one velocity for both. If a point of contact
@@ -78,7 +78,7 @@ class EdgeCover {
 
   struct Nodes {
     int count = 0;         ///< 0 if the point lies beyond an edge
-    bool at_edge = false;  ///< whether a node lies in part beyond an edge
+    bool at_edge = false;  ///< true if a node lies in part beyond an edge
   };
   /// Changes the `count` nodes around a point for edges near it. There is room for twice as many in `nodes`.
   Nodes apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const;

@@ -44,8 +44,8 @@ struct MaterialContactSettings {
   double cell_volume =
       0.0;  ///< to which minimum volumes are relative [m^3]; about an axis the area of a cell's section
   int threads = 1;
-  HeatSink* heat = nullptr;       ///< what is told of friction and touch, if there is heat
-  Communicator* ranks = nullptr;  ///< where the run is over several
+  HeatSink* heat = nullptr;       ///< receiver of friction and touch, if there is heat
+  Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
   const ToolSides* sides =
       nullptr;  ///< sides of thin tools, which may lie between two bodies at a node; null without such tools
 };
@@ -90,10 +90,10 @@ class MaterialContact final : public Stage, public ContactReporter {
   };
   /// The sums of each pair at a reader's last call.
   struct Reader {
-    double time = 0.0;  ///< of its last call [s]
+    double time = 0.0;  ///< time of its last call [s]
     std::vector<Sums> seen;
   };
-  /// What has been added to sums since `seen`, with area, interface energy and nodes of the last step.
+  /// Returns what has been added to sums since `seen`, with area, interface energy and nodes of the last step.
   Sums since(const Sums& seen, std::size_t pair) const;
   /// Replaces each by its sum over all ranks.
   void add_up(std::vector<Sums>& sums) const;
@@ -104,7 +104,7 @@ class MaterialContact final : public Stage, public ContactReporter {
     int pair = -1;
     bool turned = false;
   };
-  /// Whether a thin tool lies between the materials of two fields at a node.
+  /// True if a thin tool lies between the materials of two fields at a node.
   bool parted(const Member& a, const Member& b) const;
   Rule rule(int a, int b) const { return rules_[a * static_cast<int>(fields_.size()) + b]; }
 
@@ -115,7 +115,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   int group(Member* members, int count) const;
   NodeMaterial material_at(const Member& member, const Vec3& position) const;
   void add_pairs(Node& node, const std::array<bool, 3>& mirrored, double dt, BlockNodes& found) const;
-  /// Whether the block's nodes count to sums here.
+  /// True if the block's nodes count in sums on this rank.
   bool counts(const BlockNodes& block) const;
   void book(const BlockNodes& block, bool updated, double dt);
   void tell_of_heat(const BlockNodes& block, const Node& node, const NodePair& pair, double dt);
@@ -124,17 +124,17 @@ class MaterialContact final : public Stage, public ContactReporter {
   Fields& fields_;
   VolumeSurvey& survey_;
   SurveyWants wants_;
-  std::vector<Rule> rules_;  ///< of every two fields
+  std::vector<Rule> rules_;  ///< rule of every two fields
   std::vector<NodalVolumes> volumes_;
-  std::vector<FrictionLaw> friction_;  ///< of each pair, in this step
+  std::vector<FrictionLaw> friction_;  ///< friction of each pair, in this step
   SharedBlocks shared_;
-  std::vector<double> surveyed_;  ///< of each field, 1 where a block of it is shared, else 0
+  std::vector<double> surveyed_;  ///< for each field, 1 if a block of it is shared, else 0
   ContactNodes nodes_;            ///< a block of each shared block
   bool started_ = false;
-  std::vector<Sums> last_, total_;  ///< of each pair, in the last step and since the start
+  std::vector<Sums> last_, total_;  ///< sums of each pair, in the last step and since the start
   std::vector<Reader> readers_;
   ImpulseAccount account_;
-  Vec3 left_over_ = Vec3::Zero();  ///< of this step's impulses, by own normals [N s]
+  Vec3 left_over_ = Vec3::Zero();  ///< rest of this step's impulses, by own normals [N s]
 };
 
 }  // namespace mpm

@@ -31,7 +31,7 @@ struct NodePair {
   bool touching = false;                    ///< result of the detection; not used for an interface
   double area = 0.0;                        ///< [m^2]
   double bond = 0.0;                        ///< unbroken adhesion: strength times area times step [N s]
-  Vec3 opening = Vec3::Zero();              ///< of an interface, u_b - u_a [m]
+  Vec3 opening = Vec3::Zero();              ///< opening of an interface, u_b - u_a [m]
   /// Slip of b on a at the start of the step, as strain saw it [m/s]: friction acts in the mean of this and of the slip
   /// that is left (step/node_loss.hpp). None: the slip before contact, of a blow.
   std::optional<Vec3> start_slip;

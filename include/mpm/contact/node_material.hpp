@@ -17,7 +17,7 @@ struct NodeMaterial {
   double start_volume = 0.0;         ///< the same, undeformed, with its mirror images; only if asked for
   Vec3 gradient = Vec3::Zero();      ///< sum of V_p G: out of the material [m^2]; about an axis of areas [m]
   Vec3 place = Vec3::Zero();         ///< sum of m x S over m; or of displacements, as the detection asks for [m]
-  Vec3 displacement = Vec3::Zero();  ///< of the material at the node itself since the start; only if asked for [m]
+  Vec3 displacement = Vec3::Zero();  ///< displacement at the node itself since the start; only if asked for [m]
   bool rigid = false;                ///< its motion is prescribed, whatever pushes
 
   Vec3 momentum() const { return mass * velocity; }

@@ -1,4 +1,4 @@
-// Whether two materials at a node touch: by the volume there, and by how far they are apart. The law
+// Detection of contact between two materials at a node: by the volume there, and by how far they are apart. The law
 // itself always requires approach as well (contact/pair_law.hpp).
 //
 // Weak: the distance between two surfaces is read from the mean places of the material on either side. With particles
@@ -26,7 +26,7 @@ inline constexpr std::array<const char*, 3> kDetectionNames = {"approach", "disp
 struct DetectionRule {
   Detection kind = Detection::positions;
   double position = 0.8;  ///< distance of the mean places at which surfaces touch [cells across, along the normal]
-  double minimum_volume = 0.0;  ///< of all materials at the node, over a cell's; with less there is no contact
+  double minimum_volume = 0.0;  ///< volume of all materials at the node, over a cell's; with less there is no contact
 };
 
 /// Width of a cell along a direction [m]: the diameter along it of the ellipsoid in the cell, which is the edge along

@@ -11,11 +11,11 @@
 
 namespace mpm {
 
-/// Where the normal comes from, in the order of the manual's Normals 0 to 3.
+/// Source of the normal, in the order of the manual's Normals 0 to 3.
 enum class NormalMethod {
-  larger_gradient,  ///< of the material whose gradient is longer
-  larger_volume,    ///< of the material with more volume at the node; without rigid bias
-  average,          ///< of both, weighted by volume
+  larger_gradient,  ///< normal of the material whose gradient is longer
+  larger_volume,    ///< normal of the material with more volume at the node; without rigid bias
+  average,          ///< mean of both, weighted by volume
   own               ///< each material uses its own: momentum is not conserved where the two are not opposite
 };
 inline constexpr std::array<const char*, 4> kNormalNames = {"larger_gradient", "larger_volume", "average", "own"};

@@ -15,7 +15,7 @@ struct PairReport {
   Vec3 force = Vec3::Zero();      ///< on the second body, from the first; the opposite acts on the first [N]
   Vec3 friction = Vec3::Zero();   ///< the part of it along the surface [N]
   double pressing = 0.0;          ///< sum over nodes of the magnitude of the pressing normal force [N]
-  double area = 0.0;              ///< of the nodes that pressed in the last step [m^2]
+  double area = 0.0;              ///< area of the nodes that pressed in the last step [m^2]
   double interval = 0.0;          ///< [s]
   int nodes = 0;                  ///< in contact in the last step
   Vec3 impulse = Vec3::Zero();    ///< on the second body since the start [N s]

@@ -1,4 +1,4 @@
-// How far a particle reaches from its centre towards a surface: the ellipsoid inscribed in its box, deformed with it.
+// Reach of a particle from its centre towards a surface: the ellipsoid inscribed in its box, deformed with it.
 // Along the box's axes it is as long as the box, and it turns with the material; a lattice of particles reaches its own
 // flat side exactly in any orientation. For material that flows (a law with history) the deformed box has no meaning:
 // its particles reach as far as a ball of their present volume does, and never farther than at the start, even where

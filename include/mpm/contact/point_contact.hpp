@@ -66,10 +66,10 @@ struct PointContactSettings {
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
   Vec3 gravity = Vec3::Zero();    ///< acts on free bodies [m/s^2]
-  bool with_pairs = false;        ///< whether deformable bodies have laws with each other
-  HeatSink* heat = nullptr;       ///< what is told of friction and touch, if there is heat
-  bool sharp_edges = true;        ///< whether points see that faces end (contact/edge_cover.hpp)
-  Communicator* ranks = nullptr;  ///< where the run is over several
+  bool with_pairs = false;        ///< true if deformable bodies have laws with each other
+  HeatSink* heat = nullptr;       ///< receiver of friction and touch, if there is heat
+  bool sharp_edges = true;        ///< true if points see that faces end (contact/edge_cover.hpp)
+  Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
 };
 
 class PointContact final : public Stage, public ContactReporter {
@@ -100,8 +100,8 @@ class PointContact final : public Stage, public ContactReporter {
   using Pass = PointSolver::Pass;
   /// A point at one end of the step.
   struct End {
-    Vec3 slip = Vec3::Zero();     ///< of the material, as particles carry it, against the body [m/s]
-    Vec3 change = Vec3::Zero();   ///< of that by contact, for strain [m/s]
+    Vec3 slip = Vec3::Zero();     ///< slip of the material, as particles carry it, against the body [m/s]
+    Vec3 change = Vec3::Zero();   ///< change of that slip by contact, for strain [m/s]
     Vec3 impulse = Vec3::Zero();  ///< by which contact makes that change [N s]
   };
   /// Data that the stage keeps for each point of the solver, in the same order.
@@ -109,11 +109,11 @@ class PointContact final : public Stage, public ContactReporter {
     const ContactPoint* found;
     Vec3 start = Vec3::Zero();    ///< impulse that the step's solution begins with [N s]
     Vec3 before = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
-    Vec3 cut = Vec3::Zero();      ///< of that, what the nodes do not carry [m/s]
-    End first, last;              ///< of the step
+    Vec3 cut = Vec3::Zero();      ///< part of that which the nodes do not carry [m/s]
+    End first, last;              ///< the two ends of the step
     Vec3 impulse = Vec3::Zero();  ///< on the material in the step [N s]
     Vec3 gained = Vec3::Zero();   ///< change of velocity in the step, without that by gravity [m/s]
-    bool acted = false;           ///< whether the impulses of the step have been found
+    bool acted = false;           ///< true if the impulses of the step have been found
     double gap = 0.0;             ///< counted from the initial overlap [m]
     double slid = 0.0;            ///< slip since the point was at rest [m]
     double overlap = 0.0;         ///< initial overlap, <= 0 [m]
@@ -122,7 +122,7 @@ class PointContact final : public Stage, public ContactReporter {
   /// Sets the point's law for this step and returns its data; `memory`: null if it had no point in the step before.
   Contact recall(const ContactPoint& found, const PointMemory::Entry* memory, PointSolver::Point& point,
                  double dt) const;
-  /// What the material loses at a point by one end of the step, which has this part of the strain [J].
+  /// Energy that the material loses at a point by one end of the step, which has this part of the strain [J].
   static double lost(const Contact& contact, const End& end, double strain);
   void clear_impulses();
   /// Sets the impulses that the step's solution begins with.

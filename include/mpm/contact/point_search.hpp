@@ -51,7 +51,7 @@ class PointSearch {
   void search(const Job& job, double dt, double farthest, std::vector<ContactPoint>& found) const;
   /// Takes the points that other ranks have found, too.
   void gather();
-  /// Whether the surface may be at most `band` from one of the particles [begin, end) of a set.
+  /// True if the surface may be at most `band` from one of the particles [begin, end) of a set.
   bool near(const RigidBody& body, const ParticleSet& set, int begin, int end, double band) const;
 
   const std::vector<const RigidBody*>& bodies_;

@@ -40,7 +40,7 @@ class PointSolver {
  public:
   struct Point {
     Vec3 normal;                  ///< out of the body
-    Vec3 velocity;                ///< of the body there, if its motion is prescribed [m/s]
+    Vec3 velocity;                ///< velocity of the body there, if its motion is prescribed [m/s]
     Vec3 impulse = Vec3::Zero();  ///< on the material [N s]
     double allowed = 0.0;         ///< least velocity along the normal [m/s]
     double compliance = 0.0;      ///< velocity at the point by an impulse there [1/kg]
@@ -49,14 +49,14 @@ class PointSolver {
     double friction = 0.0;         ///< coefficient in this step
     double adhesion = 0.0;         ///< largest pulling impulse [N s]
     bool sticks = false;           ///< no sliding while pressed
-    bool at_edge = false;          ///< whether a node of it lies in part beyond an edge
+    bool at_edge = false;          ///< true if a node of it lies in part beyond an edge
     Hold hold = Hold::free;        ///< in the step before, then in this one
     int found = 0;                 ///< index among the points that were found
     int body = 0;                  ///< index among the bodies
     int first = 0, end = 0;        ///< its parts in parts_
     FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
     Vec3 place;                    ///< world [m]
-    Vec3 start = Vec3::Zero();     ///< what the velocity at the point takes from nodes before the impulses [m/s]
+    Vec3 start = Vec3::Zero();     ///< velocity that the point takes from nodes before the impulses [m/s]
   };
   enum class Pass {
     step,      ///< impulses >= 0, friction: decides which points are held
@@ -86,7 +86,7 @@ class PointSolver {
   void load(Member from);
   /// Adds the change of the nodes' velocities since load(), times `factor`.
   void store(Member to, double factor = 1.0);
-  /// What contact sees of the material [m/s].
+  /// Velocity of the material as contact sees it [m/s].
   Vec3 velocity_at(const Point& point) const;
   /// The nodes' velocities, weighted as an impulse is spread [m/s]. Near an edge on a free surface this is not what
   /// contact sees: an impulse times the difference is the energy that is lost where material is cut (edge_cover.hpp).
@@ -152,7 +152,7 @@ class PointSolver {
   void sweep_prescribed();
   template <Pass Kind>
   void sweep_free();
-  /// Whether the last sweep changed no body's force and torque by more than a part of their sums of magnitudes.
+  /// True if the last sweep changed no body's force and torque by more than a part of their sums of magnitudes.
   bool steady();
 
   Fields& fields_;
@@ -162,16 +162,16 @@ class PointSolver {
   ShapeKind shape_;
   int threads_;
   int solving_threads_ = 0;
-  bool any_at_edge_ = false;  ///< whether a point lies near an edge
+  bool any_at_edge_ = false;  ///< true if a point lies near an edge
   std::vector<Point> points_;
   std::vector<Part> parts_;
   std::vector<Start> starts_;
   std::vector<Node> nodes_;
-  std::vector<NodeOrigin> origins_;    ///< of nodes_
+  std::vector<NodeOrigin> origins_;    ///< origin of each of nodes_
   std::vector<Cluster> clusters_;      ///< by colour
   std::array<int, 9> colour_begin_{};  ///< in clusters_
   SweepMemory sweeps_;
-  /// What the points do to a body together: the change in the last sweep, and sums of magnitudes.
+  /// Action of all points on a body: the change in the last sweep, and sums of magnitudes.
   struct OnBody {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  ///< [N s], [N m s]
     double all_force = 0.0, all_torque = 0.0;

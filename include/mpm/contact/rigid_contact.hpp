@@ -70,7 +70,7 @@ class RigidContact final : public Stage, public ContactReporter {
     int field;
     NodeRef ref;
     Vec3 normal;    ///< out of the body
-    Vec3 velocity;  ///< of the body's surface there [m/s]
+    Vec3 velocity;  ///< velocity of the body's surface there [m/s]
     Vec3 arm;       ///< from the body's origin [m]
     Hold hold;
     NodeLoss loss;  ///< in this step
@@ -79,7 +79,7 @@ class RigidContact final : public Stage, public ContactReporter {
     int field, block;
   };
   Vec3 mass_centre(int field, NodeRef node) const;
-  /// Whether a node of a field, at a world place, is in contact if it approaches; then `point` is the surface there.
+  /// True if a node of a field, at a world place, is in contact if it approaches; then `point` is the surface there.
   /// `reach`: largest distance outside the body [m].
   bool touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const;
   /// visit(node, grid of its field)
@@ -98,9 +98,9 @@ class RigidContact final : public Stage, public ContactReporter {
   const ToolSides* sides_;
   const ThinTool* thin_;                  ///< the body as a thin tool, if its sides have a field each; else null
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
-  std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
-  std::vector<HeldNodes> held_;           ///< of each field
-  std::vector<std::uint8_t> centred_;     ///< of each field
+  std::vector<std::vector<Node>> nodes_;  ///< nodes of each block in near_
+  std::vector<HeldNodes> held_;           ///< held nodes of each field
+  std::vector<std::uint8_t> centred_;     ///< for each field, 1 if normals are those at its mass centres
   ContactLedger ledger_;
   HeatSink* heat_;
   int touching_ = 0;

@@ -24,11 +24,11 @@ namespace mpm {
 struct RigidParticleSettings {
   NormalRule normals;
   DetectionRule detection;
-  std::vector<ContactLaw> laws;  ///< of each velocity field against the body
+  std::vector<ContactLaw> laws;  ///< law of each velocity field against the body
   GeometryKind geometry = GeometryKind::solid;
   int per_cell = 2;               ///< particles along a cell's edge
   double across = 1.0;            ///< thickness or area beside the grid's axes [m, m^2]
-  Communicator* ranks = nullptr;  ///< where the run is over several
+  Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
 };
 
 class RigidParticleContact final : public Stage, public ContactReporter {
@@ -88,10 +88,10 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   ContactLedger ledger_;
   double cell_volume_;
   std::vector<NodalVolumes> volumes_;
-  std::vector<FrictionLaw> friction_;            ///< of each field, in this step
-  std::vector<std::uint64_t> keys_;              ///< of blocks near the body, ascending
+  std::vector<FrictionLaw> friction_;            ///< friction of each field, in this step
+  std::vector<std::uint64_t> keys_;              ///< keys of blocks near the body, ascending
   std::vector<std::vector<std::uint8_t>> near_;  ///< marks of these in each field
-  std::vector<double> surveyed_;                 ///< of each field, not 0: some rank has any of them there
+  std::vector<double> surveyed_;                 ///< for each field, not 0 if some rank has any of them there
   std::vector<Node> nodes_;                      ///< by field, then key, then node
   std::vector<Held> held_;
   std::vector<NodeMaterial> two_;

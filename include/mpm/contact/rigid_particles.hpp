@@ -46,7 +46,7 @@ class RigidParticles {
   struct Along {
     int first;             ///< node that the functions begin at
     double part;           ///< remaining part of the box
-    double middle;         ///< of the remaining part [cells]
+    double middle;         ///< middle of the remaining part [cells]
     RadialBox<double> of;  ///< values, and gradients [1/m], at three nodes
   };
   /// Empty if the box lies beyond a mirror.
@@ -58,7 +58,7 @@ class RigidParticles {
   const GridLayout& layout_;
   bool axisymmetric_;
   Pose start_;
-  double half_;              ///< of a particle's box [cells]
+  double half_;              ///< half the edge of a particle's box [cells]
   double volume_each_;       ///< [m^3]
   std::vector<Vec3> local_;  ///< in the body's frame [m]
   NodalField volume_, gradient_, place_, moved_;

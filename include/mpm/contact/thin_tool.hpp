@@ -16,10 +16,10 @@
 
 namespace mpm {
 
-/// Whether material on two sides of the body may share nodes: it is thinner than three cells. On the axis of an
+/// True if material on two sides of the body may share nodes: it is thinner than three cells. On the axis of an
 /// axisymmetric scene a rod has one side only. `cell`: the smallest edge [m].
 bool is_thin(const RigidBodyDefinition& body, GeometryKind geometry, double cell);
-/// Whether its sides have a field each. Of bodies made of particles only if the scene says so.
+/// True if its sides have a field each. For bodies made of particles only if the scene says so.
 inline bool has_sides(const RigidBodyDefinition& body, GeometryKind geometry, double cell) {
   return body.sides == Sides::two ||
          (body.sides == Sides::automatic && !body.particles && is_thin(body, geometry, cell));
@@ -39,10 +39,10 @@ class ThinTool {
   void serialise(StateArchive& archive) { archive.value("across", across_); }
   /// The side of a world point [m], 0 or 1.
   int side(const Vec3& point) const;
-  /// Whether the surface is at most `band` [m] away from a world point; then `found` is the surface there, in the
+  /// True if the surface is at most `band` [m] away from a world point; then `found` is the surface there, in the
   /// body's frame.
   bool within(const Vec3& point, double band, SurfacePoint& found) const;
-  /// Whether the straight line from one world point to the other meets the tool.
+  /// True if the straight line from one world point to the other meets the tool.
   bool between(const Vec3& from, const Vec3& to) const;
 
  private:

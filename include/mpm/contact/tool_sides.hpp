@@ -50,11 +50,11 @@ class ToolSides final : public Module {
   void before_sort() override;
   /// Adds the distance that a tool and material near it have moved against each other [m].
   void add_travel(double travel) { travelled_ += travel; }
-  /// Whether sides may have changed.
+  /// True if sides may have changed.
   bool needs_sort() const override;
-  /// Whether a tool lies between the mass centres of two fields at a node. Needs Grid::place.
+  /// True if a tool lies between the mass centres of two fields at a node. Needs Grid::place.
   bool apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const;
-  /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
+  /// True if a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
   /// Writes or reads its state, for checkpoints.
   void serialise(StateArchive& archive) override;
@@ -92,7 +92,7 @@ class SideGlue final : public Stage {
   struct Node {
     std::array<int, 2> field;
     NodeRef ref[2];
-    double part[2];  ///< of the node's mass
+    double part[2];  ///< parts of the node's mass
   };
   void find_nodes(const std::array<int, 2>& sides);
   void watch(const Grid& grid, double dt);

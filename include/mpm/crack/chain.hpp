@@ -30,14 +30,14 @@ struct CrackPoint {
   Vec2 place = Vec2::Zero(), above = Vec2::Zero(), below = Vec2::Zero();
   Vec2 start = Vec2::Zero();  ///< its place when the run began, or when growth made it
   Vec2 velocity = Vec2::Zero(), velocity_above = Vec2::Zero(), velocity_below = Vec2::Zero();
-  /// Whether that velocity is one of nodes, to go on from.
+  /// True if that velocity comes from nodes, to go on from.
   bool known = false, known_above = false, known_below = false;
 
   /// Half way between its surfaces [m].
   Vec2 middle() const { return 0.5 * (above + below); }
 };
 
-/// What nodes say of the motion at a place: sums weighted by shape function and mass, over those that carry material.
+/// Motion of nodes at a place: sums weighted by shape function and mass, over those that carry material.
 struct SurfaceMotion {
   Vec2 velocity = Vec2::Zero();      ///< at the end of the step [m/s]
   Vec2 acceleration = Vec2::Zero();  ///< in the step [m/s^2]
@@ -64,7 +64,7 @@ class Chain {
   /// Number of the point at an end.
   int point_at(int end) const { return end == 0 ? 0 : size() - 1; }
 
-  /// What crossing tests see: the places of all points, where those of exterior ends lie farther out by
+  /// Line that crossing tests see: the places of all points, where those of exterior ends lie farther out by
   /// kExteriorReach times the last segment. So segment k is the chain's, and a part of a lengthened segment is not that
   /// part of the chain's.
   const std::vector<Vec2>& line() const { return line_; }
@@ -79,7 +79,7 @@ class Chain {
   static constexpr int kRun = 8;
   const std::vector<Extent>& extents() const { return extents_; }
 
-  /// Of a place from the nearest of the segments, as points() has them [m].
+  /// Distance of a place from the nearest of the segments, as points() has them [m].
   double distance(const Vec2& place) const;
   /// Unit vector in which an end points out of the chain.
   Vec2 direction(int end) const;

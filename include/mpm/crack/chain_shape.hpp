@@ -24,12 +24,12 @@ std::vector<Vec2> arc_points(const Vec2& centre, double radius, double from, dou
 /// that begins elsewhere a straight segment leads there.
 std::vector<Vec2> joined(const std::vector<std::vector<Vec2>>& parts);
 
-/// What is wrong with a chain and what to do, or an empty text: fewer than two points, a point that is no place, a
+/// Fault of a chain and what to do, or an empty text: fewer than two points, a point that is no place, a
 /// segment of no length or longer than two cells, a chain that crosses or touches itself. It may end where it starts.
 /// `cell`: the smallest edge of a cell [m].
 std::string line_fault(const std::vector<Vec2>& points, double cell);
 
-/// Whether a chain lies along another one: two of its points in sequence nearer to it than a twentieth of `cell` [m].
+/// True if a chain lies along another one: two of its points in sequence nearer to it than a twentieth of `cell` [m].
 /// Cracks may cross and touch; where one lies on another, nothing is between them that their fields could hold.
 bool lies_along(const std::vector<Vec2>& points, const std::vector<Vec2>& other, double cell);
 

@@ -17,7 +17,7 @@ namespace mpm {
 
 /// The lines of the grid in its plane.
 struct GridLines {
-  Vec2 origin{0.0, 0.0};       ///< of node (0, 0) [m]
+  Vec2 origin{0.0, 0.0};       ///< place of node (0, 0) [m]
   Vec2 cell{1.0, 1.0};         ///< [m]
   std::array<int, 2> nodes{};  ///< along x (or r) and z
   Vec2 place(const std::array<int, 2>& node) const { return origin + cell.cwiseProduct(Vec2(node[0], node[1])); }
@@ -34,11 +34,11 @@ enum class ContourStatus {
 /// For reports: "the contour leaves the grid", ...
 const char* describe(ContourStatus status);
 
-/// Where the path meets the crack.
+/// Place where the path meets the crack.
 struct ContourCrossing {
   int edge = 0;                ///< from node `edge` of the path to the next one
   double along = 0.0;          ///< part of that edge, 0 at its first node
-  int segment = 0;             ///< of the crack's line, from its point `segment` to the next one
+  int segment = 0;             ///< segment of the crack's line, from its point `segment` to the next one
   double along_segment = 0.0;  ///< part of it
   Vec2 place{0.0, 0.0};        ///< [m]
 };

@@ -1,4 +1,4 @@
-// What a contour around a crack's tip is integrated over: values at its nodes, joined by straight pieces, with two
+// Values that a contour around a crack's tip is integrated over, at its nodes, joined by straight pieces, with two
 // points at the place where it meets the crack, one on each face.
 //
 // Nodal values beside the crack are means of material on one side, whose centre is not the node: up to 0.75 cells off.
@@ -27,7 +27,7 @@ struct ContourValues {
   double hoop = 0.0;                    ///< stress around the axis [Pa]
   double energy = 0.0;                  ///< W, work of the stress [J/m^3 of the present volume]
   double kinetic = 0.0;                 ///< K [J/m^3]
-  Vec2 centre{0.0, 0.0};                ///< of the material that these are means of [m]
+  Vec2 centre{0.0, 0.0};                ///< centre of the material that these are means of [m]
 
   /// (1 - part) a + part b
   static ContourValues between(const ContourValues& a, const ContourValues& b, double part);
@@ -35,15 +35,15 @@ struct ContourValues {
 };
 
 enum class ContourField {
-  own,    ///< of the material on the node's own side of the crack
-  across  ///< of the material across the crack whose tip the contour surrounds
+  own,    ///< field of the material on the node's own side of the crack
+  across  ///< field of the material across the crack whose tip the contour surrounds
 };
 
 /// Gives nodal values, say of a grid's or of an exact field.
 class ContourSource {
  public:
   virtual ~ContourSource() = default;
-  /// Whether `field` has material at `node`; then its values are in `values`.
+  /// True if `field` has material at `node`; then its values are in `values`.
   virtual bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const = 0;
 };
 

@@ -51,7 +51,7 @@ class CrackContact final : public Stage {
 
  private:
   void add_node(const DividedNode& node);
-  /// What tells a pair of fields, of 0 to 3, from others at its node from step to step.
+  /// Number that tells a pair of fields, of 0 to 3, from others at its node from step to step.
   int identity(const DividedNode& node, int above, int below) const;
   void add_pair(int crack, int above, int below, const Vec2& normal, int identity);
   void survey(const std::vector<std::uint8_t>& wanted);
@@ -75,7 +75,7 @@ class CrackContact final : public Stage {
   std::vector<double> apart_;                     ///< distance of faces of pairs looked at, as the step began [m]
   std::vector<std::vector<std::uint8_t>> marks_;  ///< [field][block]: where nodes of such pairs are
   std::vector<std::uint8_t> any_;                 ///< [field]: whether there are marks
-  std::vector<FrictionLaw> friction_;             ///< of each crack, in this step
+  std::vector<FrictionLaw> friction_;             ///< friction of each crack, in this step
   std::vector<double> friction_energy_, interface_energy_;
   bool started_ = false;
 };

@@ -1,5 +1,5 @@
-// Which velocity field a particle has at each node near cracks (grid/node_choice.hpp), found anew in every step from
-// the places of particles and chains at its start:
+// Choice of the velocity field that a particle has at each node near cracks (grid/node_choice.hpp), found anew in every
+// step from the places of particles and chains at its start:
 //
 //   0   the way from particle to node crosses no crack
 //   1   it crosses one, and 1 of this node has that crack and side, or none yet
@@ -38,7 +38,7 @@ namespace mpm {
 struct Crack {
   CrackDefinition definition;
   Chain chain;
-  std::vector<std::uint8_t> divides;  ///< of each set, whether it heeds the crack
+  std::vector<std::uint8_t> divides;  ///< for each set, 1 if it heeds the crack
   bool felt = true;                   ///< false: its faces are joined as if it were not there
 };
 
@@ -51,11 +51,11 @@ class CrackFields {
 
   /// Says which particles choose, before a sort.
   void before_sort();
-  /// Whether a chain has come near particles that do not choose.
+  /// True if a chain has come near particles that do not choose.
   bool needs_sort() const;
   /// Finds the fields of all pairs, and sorts particles into patches. Collective.
   void choose();
-  /// Whether nodes of the block may lie within so many cells of a chain, until the next sort.
+  /// True if nodes of the block may lie within so many cells of a chain, until the next sort.
   bool near(const std::array<int, 3>& block, double cells) const;
 
   /// Nodes at which something has been found across a crack, in the order of their finding; over several ranks in that
@@ -91,7 +91,7 @@ class CrackFields {
   NodeRef find_place(int field, const std::array<int, 2>& node) const;
   /// The node in the field of what is across this one crack from it.
   NodeOfField find_across(int first, int crack, const std::array<int, 2>& node) const;
-  /// How many fields a group has, field 0 among them.
+  /// Number of fields that a group has, field 0 among them.
   int fields_of(int first) const { return 1 + across_[first]; }
   const Grid& patches() const { return choice_.grid(); }
   /// The field 0 of every set that the crack divides, each once.
@@ -105,11 +105,11 @@ class CrackFields {
   /// Nodes of a tile, a bit each: the one at row i and column j is bit kEdge i + j.
   using NodeSet = std::uint64_t;
   static_assert(NodeChoice::kTileNodes == 64);
-  /// What has been chosen at the nodes of a tile.
+  /// Fields that have been chosen at the nodes of a tile.
   struct Chosen {
     NodeSet nodes = 0;                                      ///< at which a field is chosen
     std::array<NodeSet, DividedNode::kFields> of_field{};   ///< each node in one of them
-    NodeSet jumping = 0;                                    ///< whose pairs jump, by `code`
+    NodeSet jumping = 0;                                    ///< nodes whose pairs jump, by `code`
     std::array<std::uint8_t, NodeChoice::kTileNodes> code;  ///< set only where they jump
   };
   /// Particles of one block that choose alike.
@@ -126,9 +126,9 @@ class CrackFields {
     }
   };
   struct Tile {
-    int block;                  ///< of NodeChoice::blocks()
+    int block;                  ///< block of NodeChoice::blocks()
     std::array<int, 3> corner;  ///< number of its first node along each axis
-    std::vector<Part> parts;    ///< of each crack
+    std::vector<Part> parts;    ///< part of each crack
   };
 
   /// A node in the first field of a group: its block's number (-1: none), its place there, and in node_at_.
@@ -136,7 +136,7 @@ class CrackFields {
     int number, local;
     std::size_t index;
   };
-  /// Whether the crack divides material of this group.
+  /// True if the crack divides material of this group.
   bool divides(int crack, int first) const;
   /// Finds the segments of cracks between `from` and the nodes around a place, for find_node().
   void look_around(int first, const Vec2& place, const Vec2& from) const;
@@ -171,17 +171,17 @@ class CrackFields {
   NodeChoice& choice_;
   const FieldJumps& jumps_;
   PatchSorter sorter_;
-  std::vector<int> across_;                        ///< of each field 0, how many fields follow it
+  std::vector<int> across_;                        ///< number of fields that follow each field 0
   std::vector<std::vector<std::uint8_t>> heeded_;  ///< [set][crack]
   ShapeKind shape_;
   int threads_;
   Communicator* ranks_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
-  std::vector<Part> near_;                         ///< of each crack, near a particle
+  std::vector<Part> near_;                         ///< part of each crack, near a particle
   mutable std::vector<Part> around_;               ///< the same near a place and the nodes around it
   Chosen wanted_;                                  ///< by a particle
-  std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< of wanted_, set only where pairs jump [m]
+  std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< jumps of wanted_, set only where pairs jump [m]
   std::vector<Patch> patches_;
   std::vector<std::vector<int>> patch_of_;  ///< [set][particle that chooses]
   std::vector<DividedNode> nodes_;

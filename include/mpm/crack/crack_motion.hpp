@@ -26,7 +26,7 @@ class CrackMotion {
   void serialise(StateArchive& archive) { archive.value("stopped", stopped_); }
 
  private:
-  /// What nodes of the groups say of the motion of material at `from`, near `place`.
+  /// Motion, by the nodes of the groups, of material at `from`, near `place`.
   SurfaceMotion surface(const std::vector<int>& groups, const Vec2& place, const Vec2& from) const;
   SurfaceMotion centre(const std::vector<int>& groups, const Vec2& place) const;
 
@@ -35,8 +35,8 @@ class CrackMotion {
   const Fields& fields_;
   CracksDefinition::Move by_;
   bool prevent_;
-  std::vector<std::vector<int>> groups_;                            ///< of each crack
-  std::vector<std::vector<SurfaceMotion>> above_, below_, centre_;  ///< of each crack
+  std::vector<std::vector<int>> groups_;                            ///< groups of each crack
+  std::vector<std::vector<SurfaceMotion>> above_, below_, centre_;  ///< surfaces of each crack
   long stopped_ = 0;
 };
 

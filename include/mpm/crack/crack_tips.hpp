@@ -26,11 +26,11 @@
 
 namespace mpm {
 
-/// What is known of a material for cracks.
+/// Constants of a material for cracks.
 struct FractureMaterial {
   std::string name;
   FractureConstants constants;
-  std::optional<ElasticConstants> elastic;  ///< of isotropic elastic materials
+  std::optional<ElasticConstants> elastic;  ///< constants of isotropic elastic materials
   double wave_speed = 0.0;                  ///< [m/s]
 };
 
@@ -38,11 +38,11 @@ struct TipSettings {
   ContourDefinition contour;
   CracksDefinition::Split split = CracksDefinition::Split::interaction;
   GrowthRule growth, alternate;
-  double length = 0.5;       ///< of a step of growth [cells]
+  double length = 0.5;       ///< length of a step of growth [cells]
   double time_factor = 0.5;  ///< time between looks, over that in which a wave crosses a cell
   std::vector<FractureMaterial> materials;
   std::vector<int> material_of_set;
-  std::function<BodyEnergies()> energies;  ///< of the run between two steps
+  std::function<BodyEnergies()> energies;  ///< energies of the run between two steps
 };
 
 /// A tip as it was last looked at.
@@ -54,17 +54,17 @@ struct CrackTip {
   double zone = 0.0;                                     ///< that work, by area [J/m^2]
   StressIntensity k;                                     ///< 0 where the material has none
   FaceOpening opening;                                   ///< near the tip, in its frame [m]
-  int material = -1;                                     ///< of TipSettings::materials
+  int material = -1;                                     ///< index in TipSettings::materials
   Vec2 start_direction = Vec2::UnitX();                  ///< at the run's start
-  double speed = 0.0;                                    ///< of the last growth: its length over the time since [m/s]
-  double running = 0.0;                                  ///< at a speed that its criterion sets, now [m/s]
-  double grown = 0.0;                                    ///< by so much since the start [m]
-  double angle = 0.0;                                    ///< of the last growth from the direction before it [rad]
-  double first_angle = 0.0;                              ///< of the first growth [rad]
-  double released = 0.0;                                 ///< J at the last growth, with the zone [J/m^2]
-  double energy_release = 0.0;                           ///< by the balance of energy, in its last growths [J/m^2]
-  double last_growth = 0.0;                              ///< time of it [s]
-  double next_look = 0.0;                                ///< at growth, not before [s]
+  double speed = 0.0;           ///< speed of the last growth: its length over the time since [m/s]
+  double running = 0.0;         ///< at a speed that its criterion sets, now [m/s]
+  double grown = 0.0;           ///< by so much since the start [m]
+  double angle = 0.0;           ///< angle of the last growth from the direction before it [rad]
+  double first_angle = 0.0;     ///< angle of the first growth [rad]
+  double released = 0.0;        ///< J at the last growth, with the zone [J/m^2]
+  double energy_release = 0.0;  ///< by the balance of energy, in its last growths [J/m^2]
+  double last_growth = 0.0;     ///< time of it [s]
+  double next_look = 0.0;       ///< at growth, not before [s]
   int growths = 0;
   bool by_alternate = false;  ///< the last growth
   std::string why;            ///< it grew or did not, or stopped for good
@@ -78,11 +78,11 @@ class CrackTips {
 
   /// Finds in which materials the tips lie, when particles have chosen their fields.
   void find_materials();
-  /// Whether a tip wants to be looked at at this time [s].
+  /// True if a tip has to be looked at at this time [s].
   bool growth_due(double time) const;
   /// Places of tips that may grow, now or later.
   void find_growing(std::vector<Vec2>& places) const;
-  /// What their next growth would add, of those that may grow with a law of tractions.
+  /// Finds what their next growth would add, for those that may grow with a law of tractions.
   void find_growing(std::vector<FacesOfGrowth>& faces) const;
   /// Finds the energies for growth at the end of the step that begins now, at `time` [s].
   void find_energies(double time);
@@ -91,7 +91,7 @@ class CrackTips {
   /// Lets tips grow that are due, after find(). @throws FractureError
   void grow(double time, double dt);
   const std::vector<CrackTip>& tips() const { return tips_; }
-  /// Whether a tip grows no more: it has met a crack, has left the material or the grid, or is, for want of J, too near
+  /// True if a tip grows no more: it has met a crack, has left the material or the grid, or is, for want of J, too near
   /// to another tip.
   bool stopped(const CrackTip& tip) const;
   /// Growth tells of its heat from now on; outlived by `heating`.
@@ -101,7 +101,7 @@ class CrackTips {
   void serialise(StateArchive& archive);
 
  private:
-  static constexpr double kMet = 0.05;  ///< of a cell: a tip this near to another crack has met it
+  static constexpr double kMet = 0.05;  ///< part of a cell: a tip this near to another crack has met it
 
   void find(CrackTip& tip);
   void lay_path(const CrackTip& tip);
@@ -122,7 +122,7 @@ class CrackTips {
   void grow(CrackTip& tip, double time, double dt);
   void lengthen(CrackTip& tip, const TipState& state, const GrowthDecision& decision, const std::vector<Vec2>& points,
                 const GrowthRule& rule, double dt);
-  /// Whether a node around a place carries material that the crack divides.
+  /// True if a node around a place carries material that the crack divides.
   bool has_material(int crack, const Vec2& place) const;
   bool may_grow(const CrackTip& tip) const;
   const std::string& law_of_growth(const CrackTip& tip, const GrowthRule& rule) const;
@@ -143,11 +143,11 @@ class CrackTips {
   GridLines lines_;
   std::vector<CrackTip> tips_;
   TipHeating* heating_ = nullptr;
-  bool by_balance_ = false;  ///< whether a criterion asks for energies
+  bool by_balance_ = false;  ///< true if a criterion asks for energies
   std::optional<BodyEnergies> energies_;
-  double grown_area_ = 0.0;   ///< of all tips since the start [m^2]
+  double grown_area_ = 0.0;   ///< area grown of all tips since the start [m^2]
   double area_before_ = 0.0;  ///< the same when energies were found
-  double time_ = 0.0;         ///< of the look at work [s]
+  double time_ = 0.0;         ///< time of the look at work [s]
   ContourPath path_, edge_;
   std::vector<Vec2> others_;  ///< places of other tips [m]
   std::vector<ContourPiece> pieces_;

@@ -19,10 +19,10 @@
 
 namespace mpm {
 
-/// What the next growth of a tip would add to its crack.
+/// Faces that the next growth of a tip would add to its crack.
 struct FacesOfGrowth {
   int crack, end, law;
-  double length;  ///< of chain that a point of it stands for [m]
+  double length;  ///< length of chain that a point of it stands for [m]
 };
 
 class CrackTractions {

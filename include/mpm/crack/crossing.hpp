@@ -1,5 +1,5 @@
-// Whether the straight way from a particle to a node crosses a crack, and where a straight way meets it. A crack's line
-// is a list of points joined by straight segments; above it is the left side for one who walks along the list.
+// Test whether the straight way from a particle to a node crosses a crack, and where a straight way meets it. A crack's
+// line is a list of points joined by straight segments; above it is the left side for one who walks along the list.
 //
 // Half-open rule: of a segment c-e, a way p-i crosses it if c and e lie on different sides of the line p-i and p and i
 // on different sides of the line c-e, where a point exactly on a line counts as left of it. The side of a crack point
@@ -29,7 +29,7 @@ inline double double_area(const Vec2& p, const Vec2& q, const Vec2& r) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-/// What lies between a particle and a node. Unless `crosses`, the other members mean nothing.
+/// Cracks that lie between a particle and a node. Unless `crosses`, the other members mean nothing.
 struct Crossing {
   bool crosses = false;
   bool above = false;          ///< the particle is above and the node below, by the crossing nearest to the node
@@ -60,7 +60,7 @@ inline Crossing find_crossing(const Vec2* line, int points, const Vec2& particle
   return found;
 }
 
-/// Where a straight way meets a line.
+/// Place where a straight way meets a line.
 struct Meeting {
   double along = 0.0;          ///< part of the way that lies before it, from 0 to 1
   int segment = 0;             ///< segment k begins at point k
@@ -74,16 +74,16 @@ int find_meetings(const Vec2* line, int points, const Vec2& a, const Vec2& b, st
 /// Part of the way from `a` to `b` at which it is nearest to a place, from 0 to 1.
 double nearest_part(const Vec2& a, const Vec2& b, const Vec2& place);
 
-/// Where a way first comes near a line.
+/// Place where a way first comes near a line.
 struct LineApproach {
   bool found = false;
   double along = 0.0;         ///< part of the way that lies before it, from 0 to 1
   Vec2 place = Vec2::Zero();  ///< on the line [m]
 };
 
-/// Where the way from `a` to `b` first meets the line of `points` points, at least two, or comes nearer to it than
-/// `within` [m] while it nears it. A way that begins nearer than `met` [m] has met it there. find_meetings() alone sees
-/// no line that the way runs along.
+/// Finds where the way from `a` to `b` first meets the line of `points` points, at least two, or comes nearer to it
+/// than `within` [m] while it nears it. A way that begins nearer than `met` [m] has met it there. find_meetings() alone
+/// sees no line that the way runs along.
 LineApproach find_approach(const Vec2* line, int points, const Vec2& a, const Vec2& b, double met, double within);
 
 }  // namespace mpm

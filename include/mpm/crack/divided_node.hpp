@@ -15,7 +15,7 @@ struct AcrossCrack {
   bool operator==(const AcrossCrack& other) const { return crack == other.crack && above == other.above; }
 };
 
-/// What lies between a particle and a node: at most two cracks, in their order.
+/// Cracks between a particle and a node: at most two cracks, in their order.
 struct CracksBetween {
   std::array<AcrossCrack, 2> across{};
   int count = 0;
@@ -23,13 +23,13 @@ struct CracksBetween {
   void toggle(const AcrossCrack& crossed);
 };
 
-/// What the fields of a node hold.
+/// Labels of what the fields of a node hold.
 struct FieldLabels {
   static constexpr int kFields = 4;
-  std::array<AcrossCrack, 2> single{};  ///< of fields 1 and 2
-  std::array<AcrossCrack, 2> both{};    ///< of field 3
+  std::array<AcrossCrack, 2> single{};  ///< crack of fields 1 and 2
+  std::array<AcrossCrack, 2> both{};    ///< cracks of field 3
 
-  /// Which of the fields holds the material beyond these cracks; -1: none does.
+  /// Number of the field that holds the material beyond these cracks; -1: none does.
   int field_of(const CracksBetween& between) const;
 };
 
@@ -37,7 +37,7 @@ struct DividedNode : FieldLabels {
   int first = 0;                       ///< number of its field 0 among all fields
   std::array<NodeRef, kFields> ref{};  ///< in each of the fields; block -1 where there is none
   std::array<Vec2, 2> normal{Vec2::Zero(),
-                             Vec2::Zero()};  ///< of the cracks of 1 and 2, summed; from above to below [m]
+                             Vec2::Zero()};  ///< normals of the cracks of 1 and 2, summed; from above to below [m]
   Vec2 place = Vec2::Zero();                 ///< [m]
 };
 

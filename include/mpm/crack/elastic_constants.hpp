@@ -26,11 +26,11 @@ struct ElasticConstants {
   /// Kolosov's constant: (3 - nu) / (1 + nu), in plane strain 3 - 4 nu.
   double kappa() const { return plane_stress ? (3.0 - poisson) / (1.0 + poisson) : 3.0 - 4.0 * poisson; }
 
-  /// Of waves of pressure in the plane [m/s]; infinite for density 0.
+  /// Speed of waves of pressure in the plane [m/s]; infinite for density 0.
   double dilatational_speed() const;
-  /// Of shear waves [m/s]; infinite for density 0.
+  /// Speed of shear waves [m/s]; infinite for density 0.
   double shear_speed() const;
-  /// Of surface waves, the limit of an opening tip's speed [m/s]; infinite for density 0.
+  /// Speed of surface waves, the limit of an opening tip's speed [m/s]; infinite for density 0.
   double rayleigh_speed() const;
 };
 

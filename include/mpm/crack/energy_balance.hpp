@@ -22,7 +22,7 @@
 
 namespace mpm {
 
-/// Of the whole run.
+/// Energies of the whole run.
 struct BodyEnergies {
   double potential = 0.0;  ///< stored, and lost other than by flow, less the work of what acts from outside [J]
   double plastic = 0.0;    ///< dissipated by flow [J]
@@ -41,7 +41,7 @@ class EnergyBalance {
   /// wave speed [m/s], falls by half at most, never below half of that at the start, and does not pass the wave speed;
   /// at the least speed with b below 0 the tip does not grow, and all is forgotten.
   Speed look(double area, const BodyEnergies& energies, const FractureConstants& constants, double wave_speed);
-  /// Whether the tip has grown twice since it began, or since it came to rest.
+  /// True if the tip has grown twice since it began, or since it came to rest.
   bool known() const { return known_ == 2; }
   /// Books that the tip grows now from that area.
   void grown(double area, const BodyEnergies& energies);
@@ -54,7 +54,7 @@ class EnergyBalance {
     BodyEnergies energies;
   };
   std::array<Record, 2> grown_;  ///< the last growth but one, the last
-  int known_ = 0;                ///< of these
+  int known_ = 0;                ///< number of these
   double speed_ = 0.0;           ///< 0: not started
 };
 

@@ -1,5 +1,5 @@
-// What crack faces inside a contour add to J at the tip: faces of other cracks, faces of this crack where it turns,
-// and tractions on this crack's faces.
+// Terms that crack faces inside a contour add to J at the tip: faces of other cracks, faces of this crack where it
+// turns, and tractions on this crack's faces.
 //
 // Weak: the work of tractions is that of loading; where faces unload inside the contour it is another. Friction is
 // taken from the slip at this time, as if it had grown with the shear that acts now.

@@ -1,4 +1,4 @@
-// What growth does to the strain of particles near it.
+// Effect of growth on the strain of particles near it.
 //
 // A particle's deformation is the history of the velocities of the nodes that it had. When a crack grows, some pairs of
 // particle and node go over to the field across the crack. If that field had material before, its node has opened away
@@ -40,8 +40,8 @@ class FieldJumps {
     Vec2 by = Vec2::Zero();  ///< [m]
   };
   static constexpr int kCodes = 17;
-  /// Of a pair of a particle that heeds the cracks `heeded` (one mark each) and a node of the group whose field 0 is
-  /// `first`, with these cracks between them now.
+  /// Finds the jump of a pair of a particle that heeds the cracks `heeded` (one mark each) and a node of the group
+  /// whose field 0 is `first`, with these cracks between them now.
   Jump find(int first, const Vec2& particle, const Vec2& node, const CracksBetween& now,
             const std::vector<std::uint8_t>& heeded) const;
 

@@ -28,13 +28,13 @@ double density_equivalent(const StressIntensity& k, double kappa);
 /// (K_I / K_Ic)^p + (|K_II| / K_IIc)^q, which is 1 on the ellipse; a negative K_I counts as 0.
 double elliptical_measure(const StressIntensity& k, const FractureConstants& constants);
 
-/// Why the rule cannot be applied with these constants: one sentence that names what is missing and the remedy; empty
-/// if nothing is. `elastic`: null for a material that is not isotropic and elastic, for which there is no K.
+/// Reason why the rule cannot be applied with these constants: one sentence that names what is missing and the remedy;
+/// empty if nothing is. `elastic`: null for a material that is not isotropic and elastic, for which there is no K.
 /// `alternate`: whether the rule is the second one.
 std::string criterion_fault(const GrowthRule& rule, const FractureConstants& constants, const ElasticConstants* elastic,
                             bool alternate = false);
 
-/// Whether the criterion compares stress intensities; they exist for isotropic elastic materials only.
+/// True if the criterion compares stress intensities; they exist for isotropic elastic materials only.
 bool needs_stress_intensity(FractureCriterion criterion);
 
 }  // namespace mpm

@@ -31,14 +31,14 @@
 
 namespace mpm {
 
-/// Which integral.
+/// Choice of the integral.
 struct JForm {
   enum class Kind { planar, broberg, bergkvist_huong };
   Kind kind = Kind::planar;
-  double tip_radius = 0.0;    ///< of bergkvist_huong [m]; at large strain that of the undeformed body
+  double tip_radius = 0.0;    ///< radius of bergkvist_huong [m]; at large strain that of the undeformed body
   bool large_strain = false;  ///< gradients are F - I, energies are by present volume
   double rotation = 0.0;      ///< [1] taken off (u_x,z - u_z,x) / 2 of what tractions and inertia work on
-  Vec2 low{0.0, 0.0};         ///< of bergkvist_huong: corners of a square where the form of Broberg holds [m]
+  Vec2 low{0.0, 0.0};         ///< corners, for bergkvist_huong, of a square where the form of Broberg holds [m]
   Vec2 high{0.0, 0.0};
 
   bool about_axis() const { return kind != Kind::planar; }
@@ -65,7 +65,7 @@ Vec2 joining_term(const JForm& form, const std::vector<ContourPiece>& edge);
 struct AreaSample {
   Vec2 place{0.0, 0.0};                 ///< [m]
   double area = 0.0;                    ///< in the plane [m^2]
-  double density = 0.0;                 ///< of the present volume [kg/m^3]
+  double density = 0.0;                 ///< density of the present volume [kg/m^3]
   Vec2 acceleration{0.0, 0.0};          ///< [m/s^2]
   Vec2 velocity{0.0, 0.0};              ///< [m/s]
   double velocity_gradient[2][2] = {};  ///< v_i,k by present coordinates [1/s]

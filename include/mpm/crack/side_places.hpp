@@ -1,4 +1,4 @@
-// Where the material of a velocity field is at divided nodes: its displacement since the start, or its mean place. For
+// Places of the material of a velocity field at divided nodes: its displacement since the start, or its mean place. For
 // contact between the faces of cracks, which asks for them only where faces may touch.
 //
 // Each particle says by its own gradient where material at the node would be: u_i = sum m S (u_p + H_p (x_i - x_p)) /
@@ -33,7 +33,7 @@ class SidePlaces {
   Vec2 place(int field, NodeRef node, double mass) const;
 
  private:
-  /// Of a set's particles: u - H x, H row by row.
+  /// Numbers of a set's particles: u - H x, H row by row.
   struct Numbers {
     std::array<PaddedArray<double>, 2> offset;
     std::array<std::array<PaddedArray<double>, 2>, 2> slope;

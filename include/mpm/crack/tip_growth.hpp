@@ -29,27 +29,27 @@ class FractureError : public Error {
   using Error::Error;
 };
 
-/// What is known of a tip at a look at growth. Openings and K in its frame: along `direction`, and normal to it to the
+/// State of a tip at a look at growth. Openings and K in its frame: along `direction`, and normal to it to the
 /// left.
 struct TipState {
   double time = 0.0;        ///< [s]
-  std::optional<double> j;  ///< of the tip, without the work of tractions behind it [J/m^2]; empty: not found
-  StressIntensity k;        ///< of no account where J is not known
-  double normal_opening = 0.0, shear_opening = 0.0;  ///< of the faces next to the tip [m]
-  Vec2 direction = Vec2::UnitX();                    ///< of the last segment, length 1
+  std::optional<double> j;  ///< J of the tip, without the work of tractions behind it [J/m^2]; empty: not found
+  StressIntensity k;        ///< stress intensity; without meaning where J is not known
+  double normal_opening = 0.0, shear_opening = 0.0;  ///< openings of the faces next to the tip [m]
+  Vec2 direction = Vec2::UnitX();                    ///< direction of the last segment, length 1
   Vec2 initial_direction = Vec2::UnitX();            ///< the same at the run's start
-  double length = 0.0;                               ///< of the crack [m]
-  double open_length = 0.0;                          ///< of its segments without tractions [m]
-  double grown_area = 0.0;                           ///< of all cracks, since the start [m^2]; for energy_balance only
-  std::optional<BodyEnergies> energies;              ///< for energy_balance only
+  double length = 0.0;                               ///< length of the crack [m]
+  double open_length = 0.0;                          ///< length of its segments without tractions [m]
+  double grown_area = 0.0;               ///< area of all cracks, since the start [m^2]; for energy_balance only
+  std::optional<BodyEnergies> energies;  ///< for energy_balance only
 };
 
-/// What holds for a tip: the rules that precedence has chosen, and what they need.
+/// Rules of a tip: those that precedence has chosen, and what they need.
 struct TipRules {
   GrowthRule first, alternate;
   FractureConstants constants;
   ElasticConstants elastic;                  ///< for energy_density and energy_balance only
-  double longest = 0.0, longest_open = 0.0;  ///< of the crack, of its part without tractions [m]; 0: no limit
+  double longest = 0.0, longest_open = 0.0;  ///< limits of the crack, of its part without tractions [m]; 0: no limit
 };
 /// The material's own rules go before those of the scene.
 TipRules tip_rules(const GrowthRule& first, const GrowthRule& alternate, const FractureConstants& constants,
@@ -63,7 +63,7 @@ struct GrowthDecision {
   double released = 0.0;           ///< by the balance of energy [J/m^2]; 0: not known
   bool alternate = false;          ///< by the second rule
   bool lacks_j = false;            ///< it does not grow for want of J
-  const char* reason = "";         ///< why it grows or does not, for reports
+  const char* reason = "";         ///< reason why it grows or does not, for reports
 };
 
 class TipGrowth {
@@ -74,7 +74,7 @@ class TipGrowth {
   /// Books that the tip has grown by `length` [m] > 0 as `decision` says, from `tip`.
   void grown(const TipState& tip, const GrowthDecision& decision, double length);
 
-  /// Whether the alternate rule is still asked.
+  /// True if the alternate rule is still asked.
   bool alternate_is_open() const { return !first_has_grown_; }
   /// Time before which a tip of a set speed does not grow [s]; -infinity if it has none.
   double due() const { return due_; }

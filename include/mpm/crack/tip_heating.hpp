@@ -45,9 +45,9 @@ class TipHeating final : public NodalSource {
   const Fields& fields_;
   bool counts_;
   std::vector<TipHeat> heats_;
-  std::vector<double> kept_;              ///< of each tip, for the next step [J]
-  std::vector<std::vector<int>> groups_;  ///< of each tip, field 0 of the bodies that its crack divides
-  std::vector<Share> shares_;             ///< of this step
+  std::vector<double> kept_;              ///< heat of each tip, for the next step [J]
+  std::vector<std::vector<int>> groups_;  ///< for each tip, field 0 of the bodies that its crack divides
+  std::vector<Share> shares_;             ///< shares of this step
   ContentAccount account_;
 };
 

@@ -1,4 +1,4 @@
-// What the J integral needs to know of a run around a crack's tip: values of the material at nodes, on their own side
+// Data of a run around a crack's tip for the J integral: values of the material at nodes, on their own side
 // of the crack and across it, and the particles inside the contour.
 //
 // Nodal values are means of the particles by mass and shape function, each field for itself: gradients of displacement
@@ -22,20 +22,20 @@
 
 namespace mpm {
 
-/// What the run has; all outlive TipValues.
+/// Parts of the run; all outlive TipValues.
 struct TipParts {
   const std::vector<Crack>& cracks;
   const CrackFields& chosen;
   Fields& fields;
   std::vector<ParticleSet>& sets;
   const std::vector<Law>& laws;
-  std::vector<double> densities;  ///< of each set, undeformed [kg/m^3]
+  std::vector<double> densities;  ///< density of each set, undeformed [kg/m^3]
   GeometryKind geometry;
   double across;  ///< thickness of a planar scene [m]
   /// Energies at nodes follow from stress, strain and velocity there, as in linear elasticity; else they are means of
   /// those of particles.
   bool grid_energy = false;
-  Communicator* ranks = nullptr;  ///< where the run is over several
+  Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
 };
 
 class TipValues final : public ContourSource {
@@ -80,12 +80,12 @@ class TipValues final : public ContourSource {
   TipParts parts_;
   std::unique_ptr<ScalarTransfer> transfer_;
   int first_ = 0, crack_ = 0;
-  std::vector<std::array<PaddedArray<double>, kNumbers>> numbers_;        ///< of each set's particles
-  std::vector<std::array<PaddedArray<double>, 2>> acceleration_;          ///< of each set's particles
-  std::vector<std::array<std::array<PaddedArray<double>, 2>, 2>> slope_;  ///< of the velocity
+  std::vector<std::array<PaddedArray<double>, kNumbers>> numbers_;        ///< numbers of each set's particles
+  std::vector<std::array<PaddedArray<double>, 2>> acceleration_;          ///< acceleration of each set's particles
+  std::vector<std::array<std::array<PaddedArray<double>, 2>, 2>> slope_;  ///< slope of the velocity
   std::vector<std::vector<NodalField>> nodal_;                            ///< [field of the group][pair of numbers]
   std::vector<std::vector<std::uint8_t>> marks_;                          ///< [field of the group][block]
-  NodalField component_;                                                  ///< of a velocity
+  NodalField component_;                                                  ///< component of a velocity
   std::vector<std::uint8_t> givers_;
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken taken_;

@@ -31,14 +31,16 @@ struct GivenTrilinear {
   std::optional<double> stiffness;              ///< in place of one number of the first corner [Pa/m]
 };
 
-/// Of exactly two of toughness, strength and opening, and at most one of stiffness, elastic and elastic_part.
+/// Completes a law from exactly two of toughness, strength and opening, and at most one of stiffness, elastic and
+/// elastic_part.
 /// @throws CrackError for too few or too many numbers, and for those that no curve has
 TractionMode complete_triangular(const GivenTraction& given);
-/// Of exactly two of toughness, strength and opening. @throws CrackError as above
+/// Completes a law from exactly two of toughness, strength and opening. @throws CrackError as above
 TractionMode complete_cubic(const GivenTraction& given);
-/// Of toughness or opening, and two of strength, stiffness and one elastic opening. @throws CrackError as above
+/// Completes a law from toughness or opening, and two of strength, stiffness and one elastic opening.
+/// @throws CrackError as above
 TractionMode complete_exponential(const GivenTraction& given, double decay);
-/// Of five of the six numbers. @throws CrackError as above
+/// Completes a law from five of the six numbers. @throws CrackError as above
 TractionMode complete_trilinear(const GivenTrilinear& given);
 
 }  // namespace mpm

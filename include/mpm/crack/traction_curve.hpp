@@ -44,8 +44,8 @@ class TractionCurve {
 
   TractionKind shape_ = TractionKind::triangular;
   double stiffness_ = 0.0, toughness_ = 0.0, elastic_ = 0.0, opening_ = 0.0;
-  double strength_ = 0.0, decay_ = 0.0;  ///< of an exponential law
-  int corners_ = 0;                      ///< of a law of straight lines
+  double strength_ = 0.0, decay_ = 0.0;  ///< constants of an exponential law
+  int corners_ = 0;                      ///< number of corners of a law of straight lines
   std::array<Corner, 3> corner_;
 };
 

@@ -23,10 +23,10 @@
 
 namespace mpm {
 
-/// Of faces: normal to them (mode I) or along them (mode II).
+/// Direction at faces: normal to them (mode I) or along them (mode II).
 enum class CrackMode { normal, shear };
 
-/// What the faces do to each other; positive pulls faces of positive opening together [Pa].
+/// Traction between the faces; positive pulls faces of positive opening together [Pa].
 struct Traction {
   double normal = 0.0, shear = 0.0;
 };
@@ -66,8 +66,8 @@ class TractionLaw {
   double stored(const TractionState& state, double normal_opening, double shear_opening) const;
   /// Dissipated, and freed at failure [J/m^2].
   double released(const TractionState& state) const;
-  /// What the faces between the tip and this point take from J on a contour through it (crack reference 4.5): the work
-  /// done here, under pressure the present one times the opening on which it acts [J/m^2].
+  /// Part that the faces between the tip and this point take from J on a contour through it (crack reference 4.5): the
+  /// work done here, under pressure the present one times the opening on which it acts [J/m^2].
   double face_work(const TractionState& state) const;
 
   /// The largest change of traction with opening [Pa/m], for the limit of the step.

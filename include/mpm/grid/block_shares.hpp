@@ -1,4 +1,4 @@
-// Which thread works on which owners: contiguous parts of them, and so of space, with nearly the same work. A part
+// Sharing of owners among threads: contiguous parts of them, and so of space, with nearly the same work. A part
 // keeps its nodes and particles in a core's cache from pass to pass.
 //
 // What scatters to nodes takes its owners colour by colour (block_table.hpp), but threads need not wait for each other
@@ -23,7 +23,7 @@ class BlockShares {
   /// Cuts the owners of `blocks` into `parts` parts, some of them empty where owners are few. `particles`: of each
   /// owner; when empty, all owners count alike. by_colour() leaves out owners without particles.
   void rebuild(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts);
-  /// Of those that `all` visits by colour, the owners with a mark (one an owner), in parts of their own.
+  /// Cuts the owners with a mark (one an owner), of those that `all` visits by colour, into parts of their own.
   void rebuild_of(const BlockShares& all, const BlockTable& blocks, const std::vector<std::uint8_t>& marked);
 
   int parts() const { return static_cast<int>(begin_.size()) - 1; }
@@ -50,17 +50,17 @@ class BlockShares {
   void rebuild(const BlockTable& blocks, int parts);
 
   int colours_ = 0;
-  std::vector<int> begin_ = {0};  ///< of each part, its first owner; and one past the last
+  std::vector<int> begin_ = {0};  ///< first owner of each part; and one past the last
   std::vector<int> order_;        ///< owners by part, by colour, and of a colour those beside other parts first
-  /// Of each part and colour, where its owners begin in order_, and where those with neighbours in their own part alone
-  /// do; and where all end.
+  /// Places in order_, for each part and colour, where its owners begin and where those with neighbours in their own
+  /// part alone do; and where all end.
   std::vector<int> runs_ = {0};
-  std::vector<int> beside_, beside_begin_ = {0};  ///< of each part, the parts that it touches
-  std::unique_ptr<Done[]> done_;                  ///< of each part
+  std::vector<int> beside_, beside_begin_ = {0};  ///< parts that each part touches
+  std::unique_ptr<Done[]> done_;                  ///< progress of each part
   int room_ = 0;                                  ///< parts in done_
 
   // Kept so that a sort allocates nothing.
-  std::vector<std::uint32_t> particles_;  ///< of each owner; empty where all count alike
+  std::vector<std::uint32_t> particles_;  ///< number in each owner; empty where all count alike
   std::vector<int> part_of_, owner_of_block_;
   std::vector<std::uint8_t> at_edge_, touches_;
 };

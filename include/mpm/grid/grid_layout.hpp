@@ -1,4 +1,4 @@
-// Where the nodes of the background grid are, and how they are grouped into blocks of 4 nodes along each axis.
+// Places of the nodes of the background grid, and their grouping into blocks of 4 nodes along each axis.
 //
 // Nodes are numbered by integers along each axis, with node 0 on the domain's lower corner. A planar grid has two axes,
 // the world's x and z; a line has one, x. A particle belongs to the block of its nearest node. A block's key is its

@@ -78,10 +78,10 @@ struct Grid {
     for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
   }
 
-  /// Whether sums over nodes count those of this block here: over several ranks each node counts on one of them.
+  /// True if sums over nodes count those of this block here: over several ranks each node counts on one of them.
   bool counts(int block) const { return elsewhere.empty() || elsewhere[block] == 0; }
 
-  /// Whether the node takes part in the step. Nodes lighter than least_mass are left out: a particle that reaches a
+  /// True if the node takes part in the step. Nodes lighter than least_mass are left out: a particle that reaches a
   /// node with 1e-30 of its mass reaches it with 1e-15 of its force, the order of the last bit.
   bool carries(int block, int node) const { return mass.at(block, 0, node) > least_mass; }
 

@@ -26,7 +26,7 @@ namespace mpm {
 class NodeChoice {
  public:
   static constexpr int kEdge = 8;    ///< nodes of a tile along an axis: of the block, and two beyond it on each side
-  static constexpr int kMargin = 2;  ///< of these, before the block's first
+  static constexpr int kMargin = 2;  ///< number of these before the block's first
   static constexpr int kTileNodes = kEdge * kEdge;  ///< choices are made in planes alone
 
   /// `chosen`: the fields that particles choose from; they outlive this object.
@@ -35,7 +35,7 @@ class NodeChoice {
   /// The nodes of the patches; the first owner is that of the first patch.
   Grid& grid() { return grid_; }
   const Grid& grid() const { return grid_; }
-  /// Which number it has among the fields.
+  /// Number that it has among the fields.
   int number() const { return static_cast<int>(fields_.size()); }
   const std::vector<int>& chosen() const { return chosen_; }
   const Grid& field(int number) const { return *fields_[number]; }
@@ -51,7 +51,7 @@ class NodeChoice {
   /// Number of calls of set_blocks().
   std::uint64_t sorted() const { return sorted_; }
 
-  // When patches are made anew, once a step.
+  // Functions for making patches anew, once a step.
 
   void clear_patches();
   /// Adds a patch in block `block` of blocks(), and returns its number. Patches follow their blocks' order.
@@ -99,7 +99,7 @@ class NodeChoice {
 
   Fields& fields_;
   std::vector<int> chosen_;
-  std::array<Node, kTileNodes> in_tile_;  ///< of each node of a tile: its neighbour's number, and its place there
+  std::array<Node, kTileNodes> in_tile_;  ///< for each node of a tile: its neighbour's number, and its place there
   Grid grid_;
   std::vector<std::uint64_t> block_keys_;
   std::uint64_t sorted_ = 0;

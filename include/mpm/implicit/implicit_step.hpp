@@ -31,23 +31,23 @@
 
 namespace mpm {
 
-inline constexpr const char* kImplicitName = "implicit";  ///< of the module
+inline constexpr const char* kImplicitName = "implicit";  ///< name of the module
 inline constexpr double kImplicitTravel = 0.5;            ///< cells that soil may move in a step
 inline constexpr double kFastTravel = 1.0;                ///< cells that its fastest particles may move in a step
 inline constexpr double kFastPart = 0.05;                 ///< part of a body's particles that these are
-inline constexpr double kImplicitStep = 0.01;             ///< of a scene that names none [s]
+inline constexpr double kImplicitStep = 0.01;             ///< step of a scene that names none [s]
 inline constexpr double kLongestImplicitStep = 0.1;       ///< [s]
 
 struct ImplicitSettings {
   GeometryKind geometry = GeometryKind::solid;
   double across = 1.0;        ///< thickness of a plane [m]; else 1
-  std::optional<int> sweeps;  ///< of every step; without it as many as its contacts need
+  std::optional<int> sweeps;  ///< sweeps of every step; without it as many as its contacts need
   std::array<WallDefinition, 6> walls;
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
-  bool loads = false;           ///< whether forces act on nodes that are not in proportion to their mass
+  bool loads = false;           ///< true if forces act on nodes that are not in proportion to their mass
   Isa isa = Isa::plain;
-  SweepBudget* budget = nullptr;  ///< of the sync period that steps are part of; null: they take their time
+  SweepBudget* budget = nullptr;  ///< budget of the sync period that steps are part of; null: they take their time
 };
 
 /// A stage and reporter of contact in one. Sets, bodies and grid outlive it. `laws`: of contact, one for each tool.

@@ -93,11 +93,11 @@ class SoilCells {
   int threads_;
   int blocks_ = 0;
   std::vector<int> slots_;
-  std::vector<Sums> sums_;      ///< of each place
-  std::vector<Motion> motion_;  ///< of each place
-  std::vector<int> begin_;      ///< of each block, its first group
+  std::vector<Sums> sums_;      ///< sums of each place
+  std::vector<Motion> motion_;  ///< motion of each place
+  std::vector<int> begin_;      ///< first group of each block
   std::vector<Group> groups_;
-  std::vector<mpm_kernel::SoilMask<T>> masks_;  ///< of each group
+  std::vector<mpm_kernel::SoilMask<T>> masks_;  ///< mask of each group
   double least_density_ = 0.0, modulus_ = 0.0;
 };
 

@@ -20,7 +20,7 @@
 
 namespace mpm {
 
-/// Why a material cannot take implicit steps, and what can be used instead; empty when it can.
+/// Reason why a material cannot take implicit steps, and what can be used instead; empty when it can.
 std::string refused_implicit(const MaterialDefinition& material);
 
 struct ImplicitSoil {
@@ -43,7 +43,7 @@ struct ImplicitSoil {
   double per_strain = 0.0;                            ///< change of `left`, downwards, by plastic strain
   double friction_rise = 0.0;                         ///< mu_2 - mu_s; 0: no part of the strength is viscous
   double reference_rate = 0.0;                        ///< for I_0, over sqrt(p) [1/(s sqrt(Pa))]
-  // Where particles store what a step changes, and the law's plastic strain over |e_T|.
+  // Places where particles store what a step changes, and the law's plastic strain over |e_T|.
   int strain_at = 0, work_at = 0;
   std::optional<int> opening_at;  ///< none: pressure is that of the volume, and so is what it does not account for
   double strain_of_shear = 0.0;

@@ -26,8 +26,8 @@
 
 namespace mpm {
 
-inline constexpr int kLeastSweeps = 10;           ///< of a step whose number of sweeps is not prescribed
-inline constexpr double kForceErrorBound = 0.05;  ///< of the force on tools, over the force: more is told of
+inline constexpr int kLeastSweeps = 10;           ///< sweeps of a step whose number of sweeps is not prescribed
+inline constexpr double kForceErrorBound = 0.05;  ///< error of the force on tools, over the force: more is told of
 
 /// A step whose sweeps the budget ended.
 struct CutStep {
@@ -39,7 +39,7 @@ struct CutStep {
 struct SweepsMade {
   int sweeps = 0;
   double force = 0.0;   ///< pressed on all tools together, over the step [N s]
-  double change = 0.0;  ///< of that in the last half of the sweeps [N s]
+  double change = 0.0;  ///< change of that in the last half of the sweeps [N s]
 };
 
 class SweepBudget {
@@ -83,23 +83,23 @@ class SweepBudget {
 
   const double seconds_;
   std::uint64_t step_ = 0;  ///< under way
-  double end_ = 0.0;        ///< of the sync period, simulated [s]
+  double end_ = 0.0;        ///< end of the sync period, simulated [s]
   Clock::time_point begun_, deadline_;
   bool swept_ = false;                     ///< in this sync period
-  Clock::time_point sweeps_at_, done_at_;  ///< when the sweeps of a step began, and those of the last one ended
+  Clock::time_point sweeps_at_, done_at_;  ///< start of a step's sweeps, end of the last ones'
   double for_sweeps_ = 0.0;                ///< time of this step's sweeps [s]
   bool ended_here_ = false;                ///< the sweeps of this step, by the budget
   // Foreseen [s]; 0 before the first.
   double before_ = 0.0;   ///< from the start of a period to the first sweeps
   double between_ = 0.0;  ///< from the end of sweeps to the next step's
   double after_ = 0.0;    ///< from the end of sweeps to that of the period
-  double more_ = 0.0;     ///< what sweeps beyond kLeastSweeps took in this period [s]
+  double more_ = 0.0;     ///< time that sweeps beyond kLeastSweeps took in this period [s]
   double least_ = 0.0;
   int periods_ = 0;                  ///< in least_
   double open_ = 0.0, force_ = 0.0;  ///< error and force of the last few steps, in the mean [N s]
-  double largest_ = 0.0;             ///< of force_ so far
+  double largest_ = 0.0;             ///< largest force_ so far
   std::uint64_t all_cut_ = 0;        ///< since the start of the run
-  double dt_ = 0.0;                  ///< of the step under way [s]
+  double dt_ = 0.0;                  ///< length of the step under way [s]
   std::vector<CutStep> cut_;
   double cut_error_ = 0.0;
   std::optional<std::vector<CutStep>> recorded_;

@@ -48,7 +48,7 @@ class MomentumRestart {
   /// Factor of the pair to begin, after one that has changed the stresses by `change` (SweepChange::change).
   double factor(double change) {
     if (least_ < 0.0) {
-      least_ = 0.0;  // of the first pair
+      least_ = 0.0;  // value of the first pair
       return 0.0;
     }
     const bool grows = least_ > 0.0 && change > kGrowth * least_;
@@ -57,7 +57,7 @@ class MomentumRestart {
   }
 
  private:
-  static constexpr double kGrowth = 4.0;  ///< of the square of changes over the least one since the last restart
+  static constexpr double kGrowth = 4.0;  ///< growth of the square of changes over the least one since the last restart
   double least_ = -1.0;
 };
 

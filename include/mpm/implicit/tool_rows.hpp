@@ -33,14 +33,14 @@ namespace mpm {
 struct ToolRowSettings {
   GeometryKind geometry = GeometryKind::solid;
   double across = 1.0;         ///< thickness of a plane [m]
-  double least_density = 0.0;  ///< of the soil, at the start [kg/m^3]
+  double least_density = 0.0;  ///< density of the soil, at the start [kg/m^3]
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
 };
 
 /// The tool on which soil presses most.
 struct ToolPressure {
-  double mean = 0.0;      ///< of the impulses' magnitudes over the area of the points that press [Pa]
+  double mean = 0.0;      ///< mean of the impulses' magnitudes over the area of the points that press [Pa]
   std::int32_t body = 0;  ///< its number
 };
 
@@ -98,15 +98,15 @@ class ToolRows {
   void look_at_loads(double dt);
   /// Load on a body at the start of a step.
   struct Load {
-    double impulse = 0.0, area = 0.0;  ///< of points that press [N s], [m^2]
-    Vec3 velocity = Vec3::Zero();      ///< of the body there, times the impulses
+    double impulse = 0.0, area = 0.0;  ///< sums of points that press [N s], [m^2]
+    Vec3 velocity = Vec3::Zero();      ///< velocity of the body there, times the impulses
   };
-  /// What is known of a row beside what sweeps need.
+  /// Data of a row beside those that sweeps need.
   struct Place {
     int body, sample, block;
     Vec3 at;                                ///< [m]
     double area;                            ///< [m^2]
-    double weight[mpm_kernel::kCellNodes];  ///< of its nodes, whether a wall holds them or not
+    double weight[mpm_kernel::kCellNodes];  ///< weights of its nodes, whether a wall holds them or not
     Vec3 prescribed;  ///< part of the soil's velocity there by nodes that are held, which the row's leaves out [m/s]
   };
   /// Part of a row's impulse that a held component of velocity takes.
@@ -115,7 +115,7 @@ class ToolRows {
     std::uint8_t holder, axis;
     double weight;
   };
-  /// Of each point of a body, what it did in the last step.
+  /// Force of each point of a body in the last step.
   struct Kept {
     std::vector<double> force;  ///< three numbers each [N]
     std::vector<double> own;    ///< Row::own [1/kg]
@@ -137,23 +137,23 @@ class ToolRows {
   std::vector<ContactLaw> laws_;
   const SoilGrid& grid_;
   ToolRowSettings settings_;
-  std::vector<std::vector<SurfaceSample>> samples_;  ///< of each body
+  std::vector<std::vector<SurfaceSample>> samples_;  ///< samples of each body
   FreeBodies free_;
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
   std::vector<Row> rows_;
   std::vector<Place> places_;
-  // Of every point: its row, if it touches soil.
+  // Row of every point, if it touches soil.
   std::vector<Row> found_;
   std::vector<Place> found_places_;
   std::vector<std::uint8_t> touches_;
   std::vector<HeldPart> held_;
   std::vector<int> begin_, next_;
-  std::vector<double> areas_;  ///< of each body
-  std::vector<Load> loads_;    ///< of each body
-  std::vector<Vec3> travels_;  ///< of each body where it meets soil, the last kLong cells of it at the most [m]
+  std::vector<double> areas_;  ///< area of each body
+  std::vector<Load> loads_;    ///< load of each body
+  std::vector<Vec3> travels_;  ///< travel of each body where it meets soil, the last kLong cells of it at the most [m]
   double pressure_ = 0.0;      ///< to resolve [Pa]
-  std::vector<double> press_;  ///< of each body, sum of its impulses' magnitudes [N s]
+  std::vector<double> press_;  ///< sum of the magnitudes of each body's impulses [N s]
   ToolPressure most_;
 };
 

@@ -46,7 +46,7 @@ class WallRows {
  private:
   /// A row of the last step.
   struct Kept {
-    std::uint64_t id;  ///< of its node, and wall
+    std::uint64_t id;  ///< id of its node, and wall
     double own;        ///< 1 / mass of the node [1/kg]
     Vec3 force;        ///< [N]
   };

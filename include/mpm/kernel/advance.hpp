@@ -1,5 +1,5 @@
-// How particles take over the grid's motion, a register of them at a time, and how far they may go before they have to
-// be sorted.
+// Taking over of the grid's motion by particles, a register of them at a time, and the distance that they may go before
+// they have to be sorted.
 //
 // kIncrement   velocity gains a dt, less the slip that the PIC fraction takes away. GIMP notes (2.15), (2.16). What is
 //              taken times the mean of the velocity before and after is the kinetic energy that goes with it, exactly.
@@ -40,13 +40,13 @@ class Advance {
     return displacement;
   }
 
-  /// What moves rings by the grid's motion at their places: displacement beside that by the mean motion in their
-  /// domains, of which the arguments are the differences.
+  /// Velocity that moves rings by the grid's motion at their places: displacement beside that by the mean motion in
+  /// their domains, of which the arguments are the differences.
   W to_point(W velocity, W acceleration) const {
     return dt_ * (Kind == mpm_kernel::kIncrement ? velocity - half_dt_ * acceleration : velocity);
   }
 
-  /// What damping and PIC took, if they were counted.
+  /// Adds what damping and PIC took, if they were counted.
   void add_to(mpm_kernel::Moved& moved) const {
     const double mass = Weighed && weighs_each<Rings>(set_) ? 1.0 : set_.mass;  // or they were weighed one by one
     for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * mass;
@@ -112,7 +112,7 @@ class Advance {
   W slip_work_ = W(0.0), drag_work_ = W(0.0);  // twice
 };
 
-/// How far particles of a set may go before they have to be sorted.
+/// Distance that particles of a set may go before they have to be sorted.
 template <class T, int Dim, int Nodes>
 class Reach {
   using W = Wide<T>;
@@ -139,7 +139,7 @@ class Reach {
   }
 
  private:
-  static constexpr double kBeside = 0.5 - mpm_kernel::kSlack;  ///< how far from its nearest node a particle may be
+  static constexpr double kBeside = 0.5 - mpm_kernel::kSlack;  ///< largest distance of a particle from its nearest node
   /// A stencil of three is laid around a nearest node; one of five reaches two cells to each side of a particle.
   static constexpr double kFirst = Nodes == 3 ? lowest_nearest(true) - kBeside : 1.0 + mpm_kernel::kSlack;
   W lowest_[Dim], highest_[Dim], inverse_cell_[Dim];

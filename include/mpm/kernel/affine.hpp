@@ -38,7 +38,7 @@ void second_moment(const Frame& frame, int q, T (&d)[Dim][Dim]) {
   for (int a = 0; a < Points; ++a) {
     const CellPoint<T, Dim> at = frame.point(a, q);
     const T weight = frame.weight(a, q);
-    // Of the hat functions at a point the mean place is the point, the variance f (1 - f) of a cell squared.
+    // Hat functions at a point have the point as mean place and the variance f (1 - f) of a cell squared.
     T offset[Dim];
     for (int c = 0; c < Dim; ++c) {
       offset[c] = frame.arm(a, c, q) / frame.cell(c) + at.along[c];

@@ -42,7 +42,7 @@ class Domains {
     }
   }
 
-  /// Of particles [first, first + count).
+  /// Fills the domains of particles [first, first + count).
   void fill(int first, int count) {
     for (int q = 0; q < count; q += W::kLanes) {
       W d[Dim][Dim], offset[kPoints][Dim], gradient[kPoints][Dim];
@@ -77,7 +77,7 @@ class Domains {
     for (int c = 0; c < Dim; ++c) at.along[c] = along_[a][c][q];
     return at;
   }
-  W cells(int c, int q) const { return W::load(place_[c] + q); }  ///< where particles are in the tile
+  W cells(int c, int q) const { return W::load(place_[c] + q); }  ///< place of particles in the tile
   /// The cell of the particle itself.
   CellPoint<T, Dim> centre(int q) const {
     CellPoint<T, Dim> at{0, {}};
@@ -92,7 +92,7 @@ class Domains {
     if constexpr (kRings) return ring_.weight[a][q];
     return static_cast<T>(Points<Dim>::weight(a));
   }
-  /// Of rings, what makes v_r / r of the points' v_r [1/m].
+  /// Factor that makes v_r / r of the points' v_r, for rings [1/m].
   T hoop(int a, int q) const { return static_cast<T>(Points<Dim>::weight(a)) * ring_.per_radius[q]; }
   T gradient(int a, int c, int q) const { return gradient_[a][c][q]; }  ///< [1/m]
   T cell(int c) const { return static_cast<T>(1.0 / inverse_cell_[c]); }
@@ -105,7 +105,7 @@ class Domains {
     return arm;
   }
 
-  /// Whether points of particles [first, first + count) lie outside the tile, where particles are and with the domains
+  /// True if points of particles [first, first + count) lie outside the tile, where particles are and with the domains
   /// that they have now.
   bool outgrown(int first, int count) const {
     WideMask<T> inside = WideMask<T>::first(W::kLanes);
@@ -196,7 +196,7 @@ class Domains {
     }
   }
 
-  static constexpr double kLeastRadius = 1e-4;  ///< of a particle that all but lies on the axis [cells]
+  static constexpr double kLeastRadius = 1e-4;  ///< radius of a particle that all but lies on the axis [cells]
   struct Ring {
     alignas(64) T weight[kPoints][kRoom];
     alignas(64) T per_radius[kRoom];  ///< [1/m]
@@ -208,12 +208,12 @@ class Domains {
   const Set& set_;
   double origin_[Dim], inverse_cell_[Dim], corner_[Dim];
   W half_[Dim];
-  alignas(64) T place_[Dim][kRoom];  ///< of the particles in the tile
+  alignas(64) T place_[Dim][kRoom];  ///< place of the particles in the tile
   alignas(64) T along_[kPoints][Dim][kRoom];
   alignas(64) T gradient_[kPoints][Dim][kRoom];
   alignas(64) int node_[kPoints][kRoom];
   std::conditional_t<kRings, Ring, Nothing> ring_;
-  double first_radius_ = 0.0;  ///< of the tile's first nodes [cells]
+  double first_radius_ = 0.0;  ///< radius of the tile's first nodes [cells]
   bool fitted_ = false, planar_ = false;
 };
 

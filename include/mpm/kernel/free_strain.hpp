@@ -23,7 +23,7 @@ class FreeStrain {
   struct Parts {
     Matrix f;
     Symmetric tau;
-    W growth;  ///< of the increment along each axis, logarithmic
+    W growth;  ///< logarithmic growth of the increment along each axis
   };
 
   /// The parts of F and tau that the law sees.

@@ -10,15 +10,15 @@
 
 namespace mpm {
 
-/// What a row has at the nodes of a particle: the value at the nearest one, and the steps towards it from below and on
-/// from it above, the nearer first. With them, since S sums to 1 and G to 0, a sum over three nodes is two products:
-/// sum S v = v + S+ step+ - S- step-.
+/// Values that a row has at the nodes of a particle: the value at the nearest one, and the steps towards it from below
+/// and on from it above, the nearer first. With them, since S sums to 1 and G to 0, a sum over three nodes is two
+/// products: sum S v = v + S+ step+ - S- step-.
 template <class T, int Nodes>
 struct RowValues {
   Wide<T> value, below[Nodes / 2], above[Nodes / 2];
 };
 
-/// Of each lane's own nodes.
+/// Reader of each lane's own nodes.
 template <class T, int Nodes>
 class ColumnReader {
   using W = Wide<T>;
@@ -46,7 +46,7 @@ class ColumnReader {
   typename W::Integers at_;
 };
 
-/// Of one node that all lanes share.
+/// Reader of one node that all lanes share.
 template <class T, int Nodes>
 class NodeReader {
   using B = typename Wide<T>::B;
@@ -73,8 +73,8 @@ template <class T, int Dim, int kNodes, bool Rings>
 struct LaneWeights {
   using W = Wide<T>;
   W s[Dim][kNodes], g[Dim][kNodes];
-  W t[Rings ? kNodes : 1];  ///< of an axisymmetric shape function
-  W here = W(1.0);          ///< of a line, which has no axis across its only row: 0 where a lane is of another part
+  W t[Rings ? kNodes : 1];  ///< values T of an axisymmetric shape function
+  W here = W(1.0);          ///< 1 on a line, which has no axis across its only row: 0 where a lane is of another part
   LaneWeights(const Weights<T, Dim, kNodes, Rings>& w, int q) {
     for (int k = 0; k < Dim; ++k) {
       for (int n = 0; n < kNodes; ++n) {
@@ -136,7 +136,7 @@ class Gather {
   template <int Fields, class Tile, class Reader>
   static void gradient(const Tile& tile, const Reader& reader, int row, const Lanes& w, W (&l)[Fields][Dim]) {
     each_row(row, [&](int r, int i, int j) {
-      W across[Dim];  // what each component of the gradient takes of the row
+      W across[Dim];  // part of the row that each component of the gradient takes
       if constexpr (Dim == 3) {
         across[0] = w.g[0][i] * w.s[1][j];
         across[1] = w.s[0][i] * w.g[1][j];

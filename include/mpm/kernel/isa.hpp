@@ -16,7 +16,7 @@ enum class Isa { plain, avx2, avx512 };
 const char* isa_name(Isa isa);
 /// Nothing for a name that is none.
 std::optional<Isa> find_isa(const std::string& name);
-/// Whether this machine has it, and this build too.
+/// True if this machine has it, and this build too.
 bool isa_available(Isa isa);
 
 /// An instruction set that is not known, or not there. what() lists those that are.

@@ -33,9 +33,9 @@
 namespace mpm_kernel {
 
 constexpr int kTileEdge = 8;          ///< nodes of a tile along an axis
-constexpr int kTileMargin = 2;        ///< of these, before the block's first
+constexpr int kTileMargin = 2;        ///< number of these before the block's first
 constexpr int kMostHistory = 4;       ///< scalars of history that a law may have
-constexpr double kSlack = 1e-5;       ///< of the limits that `move` reports on [cells]
+constexpr double kSlack = 1e-5;       ///< slack of the limits that `move` reports on [cells]
 constexpr int kChunk = 64;            ///< particles at a time
 constexpr int kBuffer = kChunk + 16;  ///< and what the last register writes beyond them
 constexpr double kNoWall = 1e9;       ///< node number of a wall that there is not
@@ -69,21 +69,21 @@ template <class T>
 struct SetView {
   const std::uint32_t* group;            ///< first particle of each group, and one past the last
   const std::uint32_t* group_begin;      ///< first group of each owner, and one past the last
-  double mass;                           ///< of a particle [kg]
+  double mass;                           ///< mass of a particle [kg]
   bool weighed;                          ///< true if particles have masses of their own, on any rank
   const T* masses;                       ///< these [kg]; null if there are none here
   double half[3];                        ///< half of its box [cells]
   bool whole_domains, planar_functions;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
-  double lowest[3], highest[3];          ///< where a centre may be [cells]
+  double lowest[3], highest[3];          ///< limits of a centre [cells]
   const double* x[3];                    ///< [m]
-  double* next_x[3];                     ///< where `move` puts it; may be x
+  double* next_x[3];                     ///< place where `move` puts it; may be x
   T* v[3];                               ///< [m/s]
   T* f[9];                               ///< deformation gradient
   T* tau[6];                             ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   T* domain[9];  ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
   T* affine[9];  ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]
-  /// Of place: rates on the grid's and on the particle's velocity [1/s]; null where constant.
+  /// Rates of damping by place, on the grid's and on the particle's velocity [1/s]; null where constant.
   const double* damping[2];
   /// Strain that brings no stress, as heat and moisture bring, alike along all axes: what it is to be, and what it was
   /// when the stress was last computed (free_strain.hpp). Null where no material expands.
@@ -103,7 +103,7 @@ struct ParticleArrays {
 
 struct StrainSettings {
   double dt;                           ///< [s]
-  int terms;                           ///< of exp(grad v dt)
+  int terms;                           ///< number of terms of exp(grad v dt)
   bool and_force;                      ///< the internal force goes to the grid
   const double* dilatation = nullptr;  ///< on the nodes, to take in place of the particles' own (mean.hpp) [1/s]
 };
@@ -112,14 +112,14 @@ struct MoveSettings {
   double dt;                      ///< [s]
   double flip;                    ///< FLIP fraction
   bool regather;                  ///< the new momentum goes to the grid
-  bool counted = false;           ///< what the PIC fraction takes is counted; it is whenever `damped`
+  bool counted = false;           ///< true if what the PIC fraction takes is counted; it is whenever `damped`
   bool damped = false;            ///< damping acts in the particles' update, or its energy is asked for
   bool by_point = false;          ///< about an axis: AxisMotion::point
   double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
   double particle_damping = 0.0;  ///< rate on the particle's own velocity [1/s]
 };
 
-/// Where particles are after `move`.
+/// Places of particles after `move`.
 struct Moved {
   bool loose;  ///< some have left the block
   bool gone;   ///< some have left the tile's reach or the place where they may be, or are not finite
@@ -153,7 +153,7 @@ struct Failure {
 
 /// The particle that limits the time step, of several.
 struct Fastest {
-  double rate;   ///< of its waves, motion and viscosity, across a cell [1/s]; perhaps not a number
+  double rate;   ///< rate of its waves, motion and viscosity, across a cell [1/s]; perhaps not a number
   int particle;  ///< the first one of equal rates; one whose rate is not a number comes before all others
 };
 
@@ -166,11 +166,11 @@ struct LawKernels {
                 ChunkStresses<T>* out);
   /// Columns of the stress as it is.
   void (*columns)(const SetView<T>&, int first, int count, ChunkStresses<T>& out);
-  /// Of particles [first, last), fewer than 2^24 of them; `cell`: the smallest edge [m].
+  /// Finds the fastest of particles [first, last), fewer than 2^24 of them; `cell`: the smallest edge [m].
   Fastest (*survey)(const SetView<T>&, int first, int last, double cell);
 };
 
-/// What stands beside the values of a shape function: nothing; its gradient [1/m]; the values' first moments about the
+/// Values beside the values of a shape function: nothing; its gradient [1/m]; the values' first moments about the
 /// particle S (x_i - x_p) [m], which give B of APIC; these over their second moment D [1/m], by which B D^-1 (x_i -
 /// x_p) goes to the grid.
 enum class Beside { nothing, gradient, moment, affine };
@@ -184,7 +184,7 @@ struct ShapeKernels {
   bool stretches;  ///< a particle's box follows F_kk of the step's start: SetView::domain
 };
 
-/// How particles take over the grid's motion.
+/// Way in which particles take over the grid's motion.
 enum Motion {
   kIncrement,  ///< FLIP, PIC: velocity gains the acceleration
   kAdopt,      ///< XPIC, FMPM: velocity becomes the grid's
@@ -211,7 +211,7 @@ struct KernelTable {
   Moved (*move[kMotions])(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
   /// `to` += m S (S `from`): what the particles make of a field of velocities, as momentum.
   void (*project)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* from, double* to);
-  /// Whether a domain leaves the tile as particles now are; null where `move` knows.
+  /// True if a domain leaves the tile as particles now are; null where `move` knows.
   bool (*outgrown)(const GridView&, const BlockView&, const SetView<T>*, int sets);
 
   // Any numbers, ParticleArrays one a set; nodal fields of one component or of as many as there are axes.

@@ -187,7 +187,7 @@ class Passes {
     if (settings.regather) momentum.clear(block);
     Values values;
     alignas(64) T gathered[kFields][kBuffer];
-    alignas(64) T at_place[2][kRings ? kBuffer : 1];  // of rings, radial velocity and acceleration
+    alignas(64) T at_place[2][kRings ? kBuffer : 1];  // radial velocity and acceleration of rings
     mpm_kernel::Moved moved{false, false, 0, 0};
     each_set<Interpolator>(grid, block, sets, count, [&](Interpolator& in, const Set& set, int) {
       const Reach<T, kDim, Interpolator::kNodes> reach(grid, block, set);
@@ -291,7 +291,7 @@ class Passes {
   }
 };
 
-/// Of an interpolator for each number of axes, in either precision.
+/// Passes of an interpolator for each number of axes, in either precision.
 template <template <class T, int Dim> class Interpolator>
 constexpr mpm_kernel::PassFamily passes_of() {
   return {{Passes<Interpolator<double, 1>>::table(), Passes<Interpolator<double, 2>>::table(),
@@ -300,7 +300,7 @@ constexpr mpm_kernel::PassFamily passes_of() {
            Passes<Interpolator<float, 3>>::table()}};
 }
 
-/// Of one that there is for two axes alone.
+/// Passes of an interpolator that exists for two axes alone.
 template <template <class T, int Dim> class Interpolator>
 constexpr mpm_kernel::PassFamily planar_passes_of() {
   return {{{}, Passes<Interpolator<double, 2>>::table(), {}}, {{}, Passes<Interpolator<float, 2>>::table(), {}}};

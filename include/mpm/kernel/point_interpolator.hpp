@@ -24,7 +24,7 @@ class PointInterpolator {
  public:
   using Number = T;
   static constexpr int kDim = Dim;
-  static constexpr int kNodes = 3;  ///< what a particle's own place has to leave room for
+  static constexpr int kNodes = 3;  ///< nodes that a particle's own place has to leave room for
   static constexpr bool kRings = Points<Dim>::kAxisymmetric;
   static constexpr bool kOutgrows = true;
   template <int Fields>
@@ -75,7 +75,7 @@ class PointInterpolator {
       }
       for (int c = 0; c < Fields; ++c) to[c][q] = sum[c / Dim][c % Dim];
     }
-    for (int c = 0; c < Fields; ++c) W(0.0).store(to[c] + chunk_.count);  // what the last register has beyond it
+    for (int c = 0; c < Fields; ++c) W(0.0).store(to[c] + chunk_.count);  // clears what the last register has beyond it
     return 0;
   }
 

@@ -26,7 +26,7 @@ struct PointVectors {
   static Pair pair(Four a, Four b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
 };
 
-/// Where a point is: the lower corner of its cell in the tile, and how far along each edge it is, 0 to 1.
+/// Place of a point: the lower corner of its cell in the tile, and its distance along each edge, 0 to 1.
 template <class T, int Dim>
 struct CellPoint {
   int node;

@@ -82,7 +82,7 @@ class ProductInterpolator {
     for (int c = 0; c < Dim * Dim; ++c) std::memcpy(set_.affine[c] + chunk_.first, b.l[c], chunk_.count * sizeof(T));
   }
 
-  // Where no gradient was asked for, hat functions stand in place of the hoop function.
+  // Hat functions stand in place of the hoop function if no gradient was asked for.
   template <int Fields>
   void gather_at_place(const Source<Fields>& from, int c, T* to) const {
     by_hoop(from, c, to);

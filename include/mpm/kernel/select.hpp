@@ -18,7 +18,7 @@ mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, 
 template <class T>
 const mpm_kernel::SweepTable<T>& sweep_table(Isa isa, GeometryKind geometry);
 
-/// Whether there are kernels of this shape function in this geometry: qCPDI has two axes, and B-splines are not made
+/// True if there are kernels of this shape function in this geometry: qCPDI has two axes, and B-splines are not made
 /// for an axis of symmetry.
 constexpr bool has_shape(ShapeKind shape, GeometryKind geometry) {
   if (axisymmetric(geometry)) return shape != ShapeKind::bspline2 && shape != ShapeKind::bspline3;

@@ -1,4 +1,4 @@
-// What the sweeps of the implicit step (implicit/implicit_step.hpp) work on: plain data and a table of functions, one
+// Data of the sweeps of the implicit step (implicit/implicit_step.hpp): plain data and a table of functions, one
 // for each instruction set and precision, as kernels.hpp has them for the passes of an explicit step.
 //
 // A cell has one stress, the unknown. As six numbers, compression positive, it is r = (r_N, r_T), an orthonormal map of
@@ -53,20 +53,20 @@ struct alignas(64) SoilGroup {
   T weight_n[kGroupCells], weight_t[kGroupCells];          ///< change of the cell's e by its own r, at least [1/(Pa s)]
   T compliance_n[kGroupCells], compliance_t[kGroupCells];  ///< elastic, over the step [1/(Pa s)]
   T push[kGroupCells];                                     ///< dt V [m^3 s]
-  T sine[kGroupCells], cohesion[kGroupCells];              ///< of the surface; cohesion [Pa]
+  T sine[kGroupCells], cohesion[kGroupCells];              ///< constants of the surface; cohesion [Pa]
   T dilation[kGroupCells], dilates[kGroupCells];
   T least[kGroupCells];  ///< r_N at which the soil parts, if not at no strength [Pa]
   T lode[kGroupCells];   ///< 1 where k follows the Lode angle, 0 for a round cone
-  /// Of |r_T| <= strength + slope r_N and of the flow, at the Lode angle that the last sweep has found.
+  /// Constants of |r_T| <= strength + slope r_N and of the flow, at the Lode angle that the last sweep has found.
   T strength[kGroupCells], slope[kGroupCells], theta[kGroupCells];
   int node[kCellNodes][kGroupCells];
-  int place[kGroupCells];  ///< of the cell among all places of cells; -1 without one
+  int place[kGroupCells];  ///< place of the cell among all places of cells; -1 without one
   T friction_rise;         ///< mu_2 - mu_s of mu(I); 0: strength does not depend on the rate
-  T reference_rate;        ///< of mu(I), over the root of pressure [1/(s sqrt(Pa))]
+  T reference_rate;        ///< reference rate of mu(I), over the root of pressure [1/(s sqrt(Pa))]
   int mask;                ///< number of its SoilMask; -1: no node of it is held
 };
 
-/// Where the soil of a group's cells lies: means over it of x, y, z, xy, xz and yz, in cells from the cell's lower
+/// Places of the soil of a group's cells: means over it of x, y, z, xy, xz and yz, in cells from the cell's lower
 /// corner, and the number of edges in a metre along each axis; along y in a plane 0.
 template <class T>
 struct SoilPlaces {
@@ -75,29 +75,30 @@ struct SoilPlaces {
   T over_radius[4][kGroupCells];  ///< about an axis, means of 1, x, z and xz over the radius [1/m]
 };
 
-/// Where nodes of a group are held, by walls, conditions or what is asleep: 0 for such components of velocity, else 1.
+/// Marks of where nodes of a group are held, by walls, conditions or what is asleep: 0 for such components of velocity,
+/// else 1.
 template <class T>
 struct SoilMask {
   T free[3][kCellNodes][kGroupCells];
 };
 
-/// What the velocities that were found do to the cells of a group.
+/// Effect of the velocities that were found on the cells of a group.
 template <class T>
 struct SoilFlow {
   T rate[6][kGroupCells];      ///< e [1/s]
   T shear[kGroupCells];        ///< |e_T| of its part that is not elastic [1/s]
   T opening[kGroupCells];      ///< e_N - theta |e_T| of that part [1/s]
-  T gradient[9][kGroupCells];  ///< of velocity, row by row [1/s]
+  T gradient[9][kGroupCells];  ///< gradient of velocity, row by row [1/s]
 };
 
 /// A point of a rigid body at which contact acts on the nodes around it.
 template <class T>
 struct alignas(4 * sizeof(T)) ContactRow {
-  T weight[kCellNodes][4];  ///< of a node along each axis, 0 where it is held; and 0
+  T weight[kCellNodes][4];  ///< weight of a node along each axis, 0 where it is held; and 0
   T own;                    ///< change of the velocity at the point by an impulse there, of the axes the most [1/kg]
   T friction;               ///< coefficient; negative: no sliding while it presses
   T normal[3];              ///< out of the body
-  T velocity[3];            ///< of the body there [m/s]
+  T velocity[3];            ///< velocity of the body there [m/s]
   T impulse[3];             ///< on the material [N s]
   T before[3];              ///< impulse as extrapolate() found it last [N s]
   int node[kCellNodes];
@@ -115,7 +116,7 @@ struct WallRow {
   T before[3];   ///< impulse as extrapolate() found it last [N s]
 };
 
-/// What is swept in one block, in this order or backwards.
+/// Lists that are swept in one block, in this order or backwards.
 template <class T>
 struct SoilBlock {
   SoilGroup<T>* groups;
@@ -141,13 +142,13 @@ struct alignas(64) SoilSums {
   T opening, left, dilates;
 };
 
-/// What particles take from a cell.
+/// Values that particles take from a cell.
 template <class T>
 struct alignas(64) SoilMotion {
-  T gradient[9];     ///< of velocity, row by row [1/s]
+  T gradient[9];     ///< gradient of velocity, row by row [1/s]
   T stress[6];       ///< r [Pa]
   T opening, shear;  ///< as in SoilFlow [1/s]
-  T power;           ///< of the stress on the strain, over volume [W/m^3]
+  T power;           ///< power of the stress on the strain, over volume [W/m^3]
   T unused[6];
 };
 

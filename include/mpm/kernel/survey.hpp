@@ -1,5 +1,5 @@
-// What limits the time step, of particles of one body: how many times a second a particle's waves and motion cross a
-// cell, with what its viscosity adds, a register of particles at a time. The law is chosen as in stress.hpp.
+// Rate of particles of one body that limits the time step: how many times a second a particle's waves and motion cross
+// a cell, with what its viscosity adds, a register of particles at a time. The law is chosen as in stress.hpp.
 // Source: method reference 11; Hirsch, Numerical Computation of Internal and External Flows, 7.3 (viscous rate).
 #pragma once
 
@@ -36,7 +36,7 @@ class Survey {
         speed2 += v * v;
       }
       const W rates = (law.wave_speed(f, tau, j) + sqrt(speed2)) * per_cell + law.diffusivity(j) * viscous;
-      // What is not a number comes before all numbers.
+      // Puts what is not a number before all numbers.
       const W ranks = select(WideMask<T>::first(lanes), select(rates <= endless, rates, endless), W(-1.0));
       const auto faster = ranks > most;
       most = select(faster, ranks, most);

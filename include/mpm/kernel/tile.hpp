@@ -64,7 +64,7 @@ struct TileShape {
   static constexpr int within(int node) { return (node + 2) % 4; }
 };
 
-/// Whether a row of a tile fits into a register of doubles.
+/// True if a row of a tile fits into a register of doubles.
 constexpr bool kRowInRegister = Backend<double>::kLanes >= kTileEdge;
 
 /// A row of a nodal field's component: 8 nodes, of which the middle four and the first and last two lie in three

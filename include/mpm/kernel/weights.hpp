@@ -29,7 +29,7 @@ using mpm_kernel::SetView;
 template <class T>
 constexpr bool kByColumn = Wide<T>::kLanes >= kTileEdge;
 
-/// What the weights of a body's particles depend on beside their places.
+/// Frame of the weights of a body's particles: all that they depend on beside places.
 template <class T, int Dim, template <class> class Shape>
 class WeightFrame {
   using W = Wide<T>;
@@ -59,14 +59,14 @@ class WeightFrame {
   }
   Axis axis(int k) const { return Axis(half_[k], inverse_cell_[k]); }
   double cell(int k) const { return 1.0 / inverse_cell_[k]; }
-  /// Of particles [p, p + count) along axis k, in the tile: its node i lies at i.
+  /// Places of particles [p, p + count) along axis k, in the tile: its node i lies at i.
   W cells(int k, int p, int count) const {
     return W(W::B::place(x_[k] + p, count, origin_[k], inverse_cell_[k], corner_[k]));
   }
   /// Half way between two nodes the upper one, as the sorter has it; and none that the tile does not hold.
   W nearest(W cells) const { return max(min(round(cells + W(kTie)), highest_), lowest_); }
-  /// Of particles [p, p + count) along axis k, around their nearest nodes. Inline always: a call would take its
-  /// registers through memory.
+  /// Shape functions of particles [p, p + count) along axis k, around their nearest nodes. Inline always: a call would
+  /// take its registers through memory.
   [[gnu::always_inline]] Shape<W> shape(int k, int p, int count, W cells, W nearest, const Axis& axis) const {
     if constexpr (Shape<W>::kStretches) {
       return Shape<W>(cells - nearest, Shape<W>::half(W::load_first(stretch_[k] + p, count), axis), axis);
@@ -90,7 +90,7 @@ class WeightFrame {
   double origin_[Dim], inverse_cell_[Dim], corner_[Dim], half_[Dim];
   double low_wall_[Shape<W>::kFoldsAtWalls ? Dim : 1], high_wall_[Shape<W>::kFoldsAtWalls ? Dim : 1];
   W lowest_, highest_;
-  double first_radius_ = 0.0;  ///< of the tile's first nodes [cells]
+  double first_radius_ = 0.0;  ///< radius of the tile's first nodes [cells]
   AxisRules rules_;
 };
 
@@ -103,15 +103,15 @@ struct HoopWeights {
 template <class T, int Nodes>
 struct HoopWeights<T, Nodes, false> {};
 
-/// Of a chunk of particles, for a shape function of `Nodes` values along an axis; what follows the chunk in the buffers
-/// has no meaning.
+/// Weights of a chunk of particles, for a shape function of `Nodes` values along an axis; what follows the chunk in the
+/// buffers has no meaning.
 template <class T, int Dim, int Nodes, bool Rings>
 struct Weights : HoopWeights<T, Nodes, Rings> {
   alignas(64) T s[Dim][Nodes][kBuffer];  ///< shape function along each axis
   alignas(64) T g[Dim][Nodes][kBuffer];  ///< its gradient [1/m], or what stands beside the values
   alignas(64) T cells[Dim][kBuffer];     ///< place in the tile
   alignas(64) T last[kBuffer];           ///< nearest node along the last axis
-  alignas(64) T place[kBuffer];   ///< what lanes must share to be gathered together: number of a column or a node
+  alignas(64) T place[kBuffer];   ///< number of a column or a node, which lanes must share to be gathered together
   alignas(64) int node[kBuffer];  ///< number in the tile of the nearest node
 };
 
@@ -209,13 +209,13 @@ class WeightMaker {
   }
 };
 
-/// Of an axisymmetric shape function, in the place of two axes.
+/// Family of an axisymmetric shape function, in the place of two axes.
 template <template <class> class Shape>
 constexpr mpm_kernel::ShapeFamily axisymmetric_shape_of() {
   return {{{}, WeightMaker<double, 2, Shape>::kernels(), {}}, {{}, WeightMaker<float, 2, Shape>::kernels(), {}}};
 }
 
-/// Of a shape function, for each number of axes and either precision.
+/// Family of a shape function, for each number of axes and either precision.
 template <template <class> class Shape>
 constexpr mpm_kernel::ShapeFamily shape_of() {
   return {{WeightMaker<double, 1, Shape>::kernels(), WeightMaker<double, 2, Shape>::kernels(),

@@ -53,7 +53,7 @@ struct Wide {
 
   static Wide load(const T* from) { return Wide(B::load(from)); }
   void store(T* to) const { B::store(to, v); }
-  /// Of the first `count` lanes; the others are zero, or not written.
+  /// Loads the first `count` lanes; the others are zero, or not written.
   static Wide load_first(const T* from, int count) { return Wide(B::load_first(from, count)); }
   void store_first(T* to, int count) const { B::store_first(to, v, count); }
 

@@ -10,7 +10,7 @@
 
 namespace mpm {
 
-/// How a number lies in its bits.
+/// Layout of a number's bits.
 template <class T>
 struct Format;
 template <>

@@ -96,7 +96,7 @@ class CamClay : public LawDefaults {
     tau = scale_shift(deviator, to_tau, -pressure * to_tau);
   }
 
-  /// Of volume: the integral of p dv over kappa d ln(p + p_r); of shape: q^2 / 6 G at the present pressure.
+  /// Energy of volume: the integral of p dv over kappa d ln(p + p_r); of shape: q^2 / 6 G at the present pressure.
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
     const double mean = trace(tau) / 3.0 * density_ / j, pressure = std::max(-mean, 0.0);
@@ -105,8 +105,8 @@ class CamClay : public LawDefaults {
     return (volume + 0.5 * j2 / shear_at(pressure, j) * j) / density_;
   }
 
-  /// Of the elastic response, which flow normal to the surface does not stiffen. Loose clay without pressure carries no
-  /// wave until it has closed.
+  /// Wave speed of the elastic response, which flow normal to the surface does not stiffen. Loose clay without pressure
+  /// carries no wave until it has closed.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     const T mean = T(1.0 / 3.0) * trace(tau) * T(density_) / j, pressure = max(-mean, T(0));

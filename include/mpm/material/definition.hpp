@@ -54,15 +54,15 @@ struct NeoHookeanDefinition {
   Elasticity elasticity;
 };
 
-/// Where Drucker-Prager has Mohr-Coulomb's strength and dilation: in every state, since the slope follows the Lode
-/// angle, or in the state through which a round cone passes.
+/// States where Drucker-Prager has Mohr-Coulomb's strength and dilation: in every state, since the slope follows the
+/// Lode angle, or in the state through which a round cone passes.
 enum class ConeMatch { mohr_coulomb, plane_strain, compression, extension };
 
 /// Dense sand shears at constant volume once it has gained about a tenth (critical state): between the densest and the
 /// loosest packing of most sands there is a fifth.
 constexpr double kDilationLimit = 0.1;
 
-/// How soil loses strength and dilation along a shear band, to its critical state: over displacements of the band,
+/// Loss of strength and dilation of soil along a shear band, to its critical state: over displacements of the band,
 /// which are strains of the band as the grid resolves it (softening.hpp); angles in radians.
 struct SoilSoftening {
   double slip = 0.0;            ///< displacement along the band over which strength falls [m], > 0; 0: it does not fall
@@ -208,7 +208,7 @@ struct NewtonianFluidDefinition {
   double bulk_modulus = 0.0;  ///< K [Pa], > 0
   double exponent = 7.0;      ///< n, >= 1
   double viscosity = 0.0;     ///< dynamic, shear [Pa s], >= 0
-  bool tension = false;       ///< whether pressure may be negative
+  bool tension = false;       ///< true if pressure may be negative
 };
 
 enum class GasProcess { adiabatic, isothermal };
@@ -230,7 +230,7 @@ struct StandardLinearSolidDefinition {
   static constexpr const char* kName = "viscoelastic";
   Elasticity elasticity;         ///< long-term
   double branch_modulus = 0.0;   ///< shear modulus of the branch's spring [Pa], > 0
-  double relaxation_time = 0.0;  ///< of the branch [s], > 0
+  double relaxation_time = 0.0;  ///< time of the branch [s], > 0
 };
 
 using LawDefinition =

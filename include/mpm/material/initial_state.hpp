@@ -53,13 +53,13 @@ class InitialStates {
 
   /// The state that meets the request. @throws InitialStateError
   InitialState find(const InitialRequest& request) const;
-  /// Whether the material can carry the stress at rest.
+  /// True if the material can carry the stress at rest.
   bool carries(const Symmetric3<double>& cauchy) const;
   /// Index in history of temperature minus reference temperature, or -1.
   int temperature_index() const;
   /// Index in history of the initial hardening, or -1.
   int hardening_index() const;
-  /// Whether the geometry is plane strain and yy follows from the other components.
+  /// True if the geometry is plane strain and yy follows from the other components.
   bool yy_is_bound() const;
 
  private:

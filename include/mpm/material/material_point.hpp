@@ -23,7 +23,7 @@ class MaterialPoint {
 
   const Law& law() const { return law_; }
   const Matrix3<double>& f() const { return f_; }                       ///< that the law sees
-  double j() const { return determinant(f_) * free_ * free_ * free_; }  ///< of all the deformation
+  double j() const { return determinant(f_) * free_ * free_ * free_; }  ///< J of all the deformation
   const Symmetric3<double>& tau() const { return tau_; }  ///< Kirchhoff stress over initial density [J/kg]
   Symmetric3<double> cauchy() const;                      ///< total stress [Pa]
   double pore_pressure() const;                           ///< gained since the pores were closed [Pa]

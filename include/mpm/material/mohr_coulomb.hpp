@@ -63,7 +63,7 @@ class MohrCoulomb : public LawDefaults {
     tau = scale_shift(cauchy, to_tau, T(0));
   }
 
-  /// Whether a stress with this mean [Pa] and invariant J2 [Pa^2] may lie beyond the surface. True outside the largest
+  /// True if a stress with this mean [Pa] and invariant J2 [Pa^2] may lie beyond the surface. True outside the largest
   /// cones inside the surface and the cut-off, whatever the third invariant; so it is never false beyond the surface.
   /// False for NaN.
   template <class T>

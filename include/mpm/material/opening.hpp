@@ -33,7 +33,7 @@ class DilationEnd {
   double slope() const { return slope_; }
 
  private:
-  double start_, slope_;  ///< of the straight line
+  double start_, slope_;  ///< start and slope of the straight line
 };
 
 /// Principal values of a tensor [Pa].

@@ -49,7 +49,7 @@ class PathDriver {
 
   MaterialPoint point_;
   double density_;
-  double modulus_;  ///< of the fastest wave at the start [Pa]: the scale below which a stress is round-off
+  double modulus_;  ///< modulus of the fastest wave at the start [Pa]: the scale below which a stress is round-off
   Matrix3<double> f_ = Matrix3<double>::identity();
   double time_ = 0.0;
   double work_ = 0.0;

@@ -21,7 +21,7 @@ T inner(const SymmetricPlane<T>& a, const SymmetricPlane<T>& b) {
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + T(2) * (a.xz * b.xz);
 }
 
-/// Of Cauchy stresses [Pa] at the start of a step, before the return and after it; work [J/m^3].
+/// Work of Cauchy stresses [Pa] at the start of a step, before the return and after it [J/m^3].
 template <class Symmetric>
 auto returned_work(const Symmetric& start, const Symmetric& trial, const Symmetric& end, double bulk, double shear) {
   using T = decltype(trace(start));

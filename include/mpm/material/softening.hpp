@@ -30,7 +30,7 @@ class StrengthFall {
       : per_strain_(softening.falls() ? 1.0 / softening.strain() : 0.0) {}
 
   bool falls() const { return per_strain_ > 0.0; }
-  /// What is left of the way from residual to peak strength after the plastic shear strain `strain`: 1 to 0.
+  /// Part left of the way from residual to peak strength after the plastic shear strain `strain`: 1 to 0.
   template <class T>
   T left(T strain) const {
     return max(T(1) - T(per_strain_) * strain, T(0));

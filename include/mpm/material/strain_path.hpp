@@ -36,7 +36,7 @@ struct Leg {
   int steps = 0;
   std::array<Control, kComponents> control{};
   Components target{};      ///< value at the end of the leg, approached at a constant rate
-  double growth = 0.0;      ///< of a leg: strain that brings no stress, logarithmic, alike along all axes
+  double growth = 0.0;      ///< growth in a leg: strain that brings no stress, logarithmic, alike along all axes
   bool from_start = false;  ///< strains of `target` are relative to the start of the leg instead of the path
 };
 using StrainPath = std::vector<Leg>;

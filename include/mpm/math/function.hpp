@@ -58,9 +58,9 @@ class Function {
   bool is_constant() const { return expression_ == nullptr; }
   /// The constant 0.
   bool is_zero() const { return is_constant() && constant_ == 0.0; }
-  /// Whether the value depends on X, Y or Z.
+  /// True if the value depends on X, Y or Z.
   bool uses_start() const;
-  /// Whether the value depends on the place at all: x, y, z or X, Y, Z.
+  /// True if the value depends on the place at all: x, y, z or X, Y, Z.
   bool uses_place() const;
   /// True if it depends on the place along an axis, 0 to 2.
   bool uses_place(int axis) const;

@@ -33,7 +33,7 @@ constexpr int dimensions(GeometryKind kind) {
   return kind == GeometryKind::solid ? 3 : (kind == GeometryKind::line ? 1 : 2);
 }
 constexpr bool axisymmetric(GeometryKind kind) { return kind == GeometryKind::axisymmetric; }
-/// Whether the geometry has two axes, x and z, and a thickness along y.
+/// True if the geometry has two axes, x and z, and a thickness along y.
 constexpr bool planar(GeometryKind kind) { return dimensions(kind) == 2 && !axisymmetric(kind); }
 
 /// The world axes of the grid's axes: x; x, z; or x, y, z.
@@ -46,7 +46,7 @@ inline std::vector<int> axes_beside(GeometryKind kind) {
   if (kind == GeometryKind::line) return {1, 2};
   return dimensions(kind) == 2 ? std::vector<int>{1} : std::vector<int>{};
 }
-/// Whether bodies can turn about world axis `axis`: only about y in a plane, about none in a line or in axisymmetry.
+/// True if bodies can turn about world axis `axis`: only about y in a plane, about none in a line or in axisymmetry.
 constexpr bool turns_about(GeometryKind kind, int axis) {
   return kind == GeometryKind::solid || (planar(kind) && axis == 1);
 }

@@ -6,9 +6,9 @@
 
 namespace mpm {
 
-/// Why nothing can be read under that name, to follow "PATH: ": there is no file, or a folder, or a device, a pipe or a
-/// socket, which may have no end or keep its reader waiting; or it may not be read. Empty for a regular file that can
-/// be.
+/// Reason why nothing can be read under that name, to follow "PATH: ": there is no file, or a folder, or a device, a
+/// pipe or a socket, which may have no end or keep its reader waiting; or it may not be read. Empty for a regular file
+/// that can be.
 std::string refused_input(const std::string& path);
 
 /// Opens a file to be read. Returns why that cannot be done; empty if it was.

@@ -33,9 +33,9 @@ template <class T>
 T select(bool which, T a, T b) {
   return which ? a : b;
 }
-/// Whether `which` holds in any lane.
+/// True if `which` holds in any lane.
 inline bool any(bool which) { return which; }
-/// Whether `which` holds in every lane.
+/// True if `which` holds in every lane.
 inline bool all(bool which) { return which; }
 
 template <class T>

@@ -7,8 +7,8 @@
 
 namespace mpm {
 
-/// Why no file can be made under that name, or replaced: a folder, a device, a pipe or a socket is there, which writing
-/// would replace, or block on. Empty for a regular file or a new one.
+/// Reason why no file can be made under that name, or replaced: a folder, a device, a pipe or a socket is there, which
+/// writing would replace, or block on. Empty for a regular file or a new one.
 std::string refused_output(const std::string& path);
 
 /// The file that a name stands for: from the root, links followed, also one to a file that is not there yet. Two names

@@ -81,7 +81,7 @@ T squared_sine_of_lode(const Symmetric3<T>& d, T cosine) {
          squared_norm(sum(scale_shift(square, T(1), T(-1.0 / 3.0) * trace(square)), scale_shift(d, -cosine, T(0))));
 }
 
-/// Of a deviator d with d : d = 6 half of its largest and of its smallest principal value, the latter with its sign
+/// Halves of the largest and of the smallest principal value of a deviator d with d : d = 6, the latter with its sign
 /// turned; both lie between 1/2 and 1. To 1e-10 (in single precision 1e-6). T: a number or a register. Source: Smith
 /// (1961), Commun. ACM 4, with the Lode angle from its sine where its cosine is near 1 or -1.
 template <class T>

@@ -31,12 +31,12 @@ namespace mpm {
 class StateArchive {
  public:
   enum class Number : std::uint8_t { float32, float64, int32, int64, uint8, uint32, uint64 };
-  /// What becomes of the numbers of several ranks where another number of ranks reads them.
+  /// Way to give the numbers of several ranks to another number of ranks that reads them.
   enum class Merge : std::uint8_t {
     same,   ///< all ranks have the same
     part,   ///< parts of sums: the first rank gets the sums, the others 0
     join,   ///< all get all, one after another
-    count,  ///< of what is joined: all get the sum
+    count,  ///< number of what is joined: all get the sum
     share,  ///< each gets about as much as any other, in the order in which it is stored
   };
 
@@ -160,18 +160,18 @@ class StateArchive {
  protected:
   /// Writes, or when reading fills, `count` numbers at `data`. @throws Error of the derived class
   virtual void values(const std::string& name, Number number, void* data, std::size_t count) = 0;
-  /// When reading: how many numbers are stored under that name. @throws Error of the derived class
+  /// Returns how many numbers are stored under that name; when reading only. @throws Error of the derived class
   virtual std::size_t stored(const std::string& name) = 0;
-  /// Of the numbers in question in values() and stored().
+  /// Merge of the numbers in question in values() and stored().
   Merge merge() const {
     if (same_) return Merge::same;
     return shares_ && merge_ == Merge::join ? Merge::share : merge_;
   }
-  /// Of what is shared out: so many numbers stay together.
+  /// Count of numbers that stay together in what is shared out.
   std::size_t share_row() const { return share_row_; }
 
  private:
-  /// How a value is stored: as kCount numbers of type Scalar.
+  /// Form in which a value is stored: as kCount numbers of type Scalar.
   template <class T, class = void>
   struct Packed;
   template <class T>

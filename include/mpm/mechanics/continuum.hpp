@@ -23,13 +23,13 @@ namespace mpm {
 struct ContinuumSettings {
   Transfer transfer;
   bool average_dilatation = false;            ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)
-  AxisMotion axis_motion = AxisMotion::mean;  ///< of rings
-  int gradient_terms = 2;                     ///< of exp(grad v dt)
+  AxisMotion axis_motion = AxisMotion::mean;  ///< motion of rings
+  int gradient_terms = 2;                     ///< number of terms of exp(grad v dt)
   Vec3 gravity = Vec3::Zero();                ///< [m/s^2]
   int threads = 1;
-  DampingControl* damping = nullptr;  ///< of a scene that has any; outlives the mechanics
-  NodeChoice* choice = nullptr;       ///< where particles choose a field at every node; outlives the mechanics
-  Halo* halo = nullptr;               ///< where other ranks give to the same nodes; outlives the mechanics
+  DampingControl* damping = nullptr;  ///< damping of a scene that has any; outlives the mechanics
+  NodeChoice* choice = nullptr;  ///< choice of a field at every node by particles; may be null; outlives the mechanics
+  Halo* halo = nullptr;  ///< exchange with ranks that give to the same nodes; may be null; outlives the mechanics
 };
 
 /// `kernels`: of the sets' precision, T double or float. `laws`: of each set; `fields`, sets and laws outlive the
@@ -42,7 +42,7 @@ std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kern
 /// Makes room on the particles for what kernels and transfer keep there: domains, affine matrices.
 void prepare(ParticleSet& set, ShapeKind shape, const Transfer& transfer);
 
-/// How particles have to be grouped for these kernels (step/sorter.hpp).
+/// Grouping of particles for these kernels (step/sorter.hpp).
 template <class T>
 Grouping kernel_grouping(const mpm_kernel::KernelTable<T>& kernels);
 

@@ -55,7 +55,7 @@ class DampingControl final : public Stage {
   DampingControl(const DampingDefinition& definition, double flip, Fields& fields, const std::vector<ParticleSet>& sets,
                  int threads, Communicator* ranks = nullptr);
 
-  /// Whether move has to damp, and whether it has to find the energies; end_step() goes with either.
+  /// True if move has to damp, and true if it has to find the energies; end_step() goes with either.
   bool in_update() const { return definition().in_update(); }
   bool needs_energy() const { return definition().feedback.has_value(); }
 
@@ -90,7 +90,7 @@ class DampingControl final : public Stage {
     account_.serialise(archive);
   }
 
-  /// Of the feedback, now [1/s].
+  /// Rate of the feedback, now [1/s].
   double alpha() const { return alpha_; }
   /// The largest rate between `start` and `start` + `period` [s], as far as it can be foreseen: functions at the
   /// beginning, the middle and the end, where the particles are now, and feedback as it grows with the kinetic `energy`
@@ -99,7 +99,7 @@ class DampingControl final : public Stage {
 
  private:
   const DampingDefinition& definition() const { return of_thread_.front(); }
-  /// What is read at a time and a place.
+  /// Values that are read at a time and a place.
   struct Sample {
     double grid = 0.0, particle = 0.0;  ///< [1/s]
     double pic = 0.0;
@@ -114,7 +114,7 @@ class DampingControl final : public Stage {
   void each_particle(double t, double alpha, const GridLayout& layout, Visit&& visit) const;
   /// Adds the force of this step to the nodes of a field; returns its impulse [N s].
   Vec3 damp_nodes(Grid& grid, double dt);
-  /// Of this rank's particles [kg].
+  /// Mass of this rank's particles [kg].
   double mass() const;
   double of_all_ranks(double own) const { return ranks_ == nullptr ? own : ranks_->sum(own); }
   /// d alpha/dt [1/s^2]. @throws DampingError
@@ -129,9 +129,9 @@ class DampingControl final : public Stage {
   bool of_place_;
 
   double force_rate_ = 0.0;  ///< on the nodes in this step [1/s]
-  DampingRates rates_;       ///< of all particles in this step
+  DampingRates rates_;       ///< rates of all particles in this step
   double given_flip_, flip_;
-  std::vector<PaddedArray<double>> grid_values_, particle_values_;  ///< of each set's particles [1/s]
+  std::vector<PaddedArray<double>> grid_values_, particle_values_;  ///< rates of each set's particles [1/s]
   mutable FirstFault fault_;
   std::vector<Vec3> block_sums_;  ///< force on the nodes of each block [N]
 

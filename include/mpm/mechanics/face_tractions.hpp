@@ -34,7 +34,7 @@ namespace mpm {
 struct TractionTerm {
   int set = 0;
   DomainFace face;
-  /// Which of the set's particles, by id from the set's first.
+  /// Particles of the set that it acts on, by id from the set's first.
   std::vector<std::uint32_t> particles;
   /// It follows the face: `value` is pressure (compression is positive), then shear along the half vectors that span
   /// the face, in the order of axes. Else it is the traction by world axis. [Pa]
@@ -84,13 +84,13 @@ class FaceTractions : public Stage {
   const std::vector<ParticleSet>& sets_;
   DomainFaces faces_;
   std::vector<TractionTerm> terms_;
-  std::vector<std::vector<int>> places_;  ///< of each term's particles in their set, since it was sorted
+  std::vector<std::vector<int>> places_;  ///< places of each term's particles in their set, since it was sorted
   std::vector<int> place_of_;             ///< scratch: of a set's particles, by id from the first
-  std::uint64_t generation_ = 0;          ///< of the blocks that places_ were found with
+  std::uint64_t generation_ = 0;          ///< generation of the blocks that places_ were found with
   bool any_chooses_ = false;              ///< some particle chooses its fields, and changes its place in every step
-  std::vector<NodalLoad> loads_;          ///< of this step
+  std::vector<NodalLoad> loads_;          ///< loads of this step
   Halo* halo_;
-  NodalField nodal_;  ///< of a field's loads, where there is a halo [N]
+  NodalField nodal_;  ///< nodal values of a field's loads, where there is a halo [N]
   ImpulseAccount account_;
   double work_ = 0.0;
 };

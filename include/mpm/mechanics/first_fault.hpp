@@ -1,4 +1,4 @@
-// Of the faults that several threads meet at particles in one pass, the one of the smallest id: the same error for any
+// Fault of the smallest id, of those that several threads meet at particles in one pass: the same error for any
 // number of threads.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the kernels (kernel/kernels.hpp) are handed: views of the grid, of the sets of particles and of the block at
+// Arguments of the kernels (kernel/kernels.hpp): views of the grid, of the sets of particles and of the block at
 // work. In every pass a thread has the same part of space (grid/block_shares.hpp), whose nodes and particles stay in
 // its core's cache: handed out one by one, two threads took as long as one in a plane.
 #pragma once

@@ -1,5 +1,5 @@
-// Where the mass of a node comes from: Grid::place = sum of m S x over particles [kg m], mass centre times mass, on
-// the blocks near something that asks for it (thin tools, tools in bodies that cracks divide).
+// Place where the mass of a node comes from: Grid::place = sum of m S x over particles [kg m], mass centre times mass,
+// on the blocks near something that asks for it (thin tools, tools in bodies that cracks divide).
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace mpm {
 
-/// Whether a ball around a world point is near enough to be looked at: centre and radius [m].
+/// True if a ball around a world point is near enough to be looked at: centre and radius [m].
 using NearBall = std::function<bool(const Vec3&, double)>;
 
 /// A stage that fills Grid::place of every field when momentum is gathered. `transfer`: of these fields and sets, which

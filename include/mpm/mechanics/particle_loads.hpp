@@ -30,7 +30,7 @@
 
 namespace mpm {
 
-/// Which function spreads a load over the nodes: S_ip of the scene's shape function, or N_i(x_p).
+/// Function that spreads a load over the nodes: S_ip of the scene's shape function, or N_i(x_p).
 enum class LoadSpread { domain, center };
 
 /// In the order of LoadSpread, as a scene says it.
@@ -40,12 +40,12 @@ inline constexpr std::array<const char*, 2> kSpreadNames = {"domain", "center"};
 struct ParticleLoadTerm {
   enum class Kind { body_force, particle_force };
   Kind kind = Kind::body_force;
-  std::optional<int> set;  ///< of particles, by index; all without one
+  std::optional<int> set;  ///< set of particles, by index; all without one
   std::array<Function, 3> value;
-  double factor = 1.0;  ///< of the value; of a force that particles share by their mass, 1 over the mass of all [1/kg]
+  double factor = 1.0;  ///< factor of the value; 1 over the mass of all for a force shared by mass [1/kg]
   bool each = false;    ///< a force on each particle, which its own mass divides
   LoadSpread spread = LoadSpread::domain;
-  /// Whether it acts on a particle of the set, by id from the set's first; on all when empty.
+  /// Marks of whether it acts on a particle of the set, by id from the set's first; on all when empty.
   std::vector<std::uint8_t> chosen;
 };
 
@@ -55,8 +55,8 @@ class LoadError : public ModuleError {
   using ModuleError::ModuleError;
 };
 
-/// What brings a load to the nodes, by its spread: in the scene's shape function, and in dirac, whose hat functions are
-/// at the centre.
+/// Transfers that bring a load to the nodes, by its spread: in the scene's shape function, and in dirac, whose hat
+/// functions are at the centre.
 struct LoadTransfers {
   std::unique_ptr<ScalarTransfer> domain, center;
 };

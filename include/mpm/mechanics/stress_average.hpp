@@ -60,7 +60,7 @@ class StressAverage final : public Stage {
   }
 
  private:
-  /// What the flowing particles of a cell have together; sums weighted by mass.
+  /// Sums over the flowing particles of a cell, weighted by mass.
   struct Cell {
     double mass = 0.0;    ///< [kg]
     double volume = 0.0;  ///< volume over that before deformation
@@ -70,8 +70,8 @@ class StressAverage final : public Stage {
   };
   /// The cells of each set and block that may have particles of the set.
   struct Cells {
-    std::uint64_t generation = 0;   ///< of the blocks that these are for
-    std::vector<int> of_set_block;  ///< where the cells of a set in a block begin, or -1
+    std::uint64_t generation = 0;   ///< generation of the blocks that these are for
+    std::vector<int> of_set_block;  ///< place where the cells of a set in a block begin, or -1
     std::vector<Cell> all;          ///< by the node at their lower corner
   };
 
@@ -94,15 +94,15 @@ class StressAverage final : public Stage {
   static Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, const int* of_block, Cells& cells);
 
   std::vector<AveragedSet> sets_;
-  std::vector<std::size_t> places_;  ///< of each set, the number that it was given
+  std::vector<std::size_t> places_;  ///< number that each set was given
   GeometryKind geometry_;
   int threads_;
   Halo* halo_;
-  std::vector<Cells> cells_;      ///< of each field
+  std::vector<Cells> cells_;      ///< cells of each field
   std::uint32_t step_ = 0;        ///< counts, so that what an earlier step left in a cell is known as that
   std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]
   double taken_ = 0.0;            ///< [J]
-  std::uint64_t begun_ = 0;       ///< whether a step has been taken
+  std::uint64_t begun_ = 0;       ///< not 0 if a step has been taken
 };
 
 }  // namespace mpm

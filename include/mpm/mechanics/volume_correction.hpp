@@ -83,7 +83,7 @@ class VolumeCorrection final : public Stage {
     PaddedArray<double> volume;                ///< over mass [m^3/kg]
     PaddedArray<double> fullness, full;        ///< c; part of the weights on nodes that are full
     PaddedArray<double> squares;               ///< |grad v|^2 [1/s^2]
-    std::array<PaddedArray<double>, 3> slope;  ///< of a component of v [1/s]
+    std::array<PaddedArray<double>, 3> slope;  ///< slope of a component of v [1/s]
   };
 
   void make_room();
@@ -107,8 +107,8 @@ class VolumeCorrection final : public Stage {
   int threads_;
   std::unique_ptr<ScalarTransfer> transfer_;
   double cell_;
-  std::vector<Numbers> numbers_;               ///< of each body
-  std::vector<NodalField> volume_, fullness_;  ///< of each field
+  std::vector<Numbers> numbers_;               ///< numbers of each body
+  std::vector<NodalField> volume_, fullness_;  ///< volume and fullness of each field
   NodalField one_;                             ///< a component at a time
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken takers_;

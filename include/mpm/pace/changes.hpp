@@ -1,5 +1,5 @@
-// What would bring a run to a wanted pace: changes that the scene does not use yet, from the one that costs least in
-// accuracy to the one that costs most, and the first of them that together reach it.
+// Changes that would bring a run to a wanted pace: those that the scene does not use yet, from the one that costs least
+// in accuracy to the one that costs most, and the first of them that together reach it.
 //
 // Factors of threads, precision and update are timed on the scene where that was done, else they are the least that
 // doc/performance.md has for any scene and instruction set. The step and the cell change the number of steps by
@@ -19,7 +19,7 @@ namespace mpm::pace {
 struct Change {
   std::string what;     ///< as one writes it: "method.precision=single"
   double factor = 1.0;  ///< times as fast, alone
-  std::string origin;   ///< of the factor
+  std::string origin;   ///< origin of the factor
   std::string price;    ///< in accuracy
 };
 

@@ -29,7 +29,7 @@ Discretisation discretisation_of(const SimulationDefinition& definition);
 /// "method.update", "time.cfl", "time.step".
 const std::vector<std::string>& discretisation_keys();
 
-/// What differs from `before`, a text "key=value" for each key, as `run_scene --set` takes it, whatever the scene's
+/// Differences from `before`, a text "key=value" for each key, as `run_scene --set` takes it, whatever the scene's
 /// units are.
 std::vector<std::string> set_lines(const Discretisation& chosen, const Discretisation& before, GeometryKind geometry);
 /// All of it in a line: "cell 0.035 m, 8 particles a cell, single, usf, cfl 0.9", of implicit steps their length.

@@ -1,4 +1,4 @@
-// How wrong the force on a tool in soil is, for a discretisation: read from measured runs, in a small table.
+// Error of the force on a tool in soil, for a discretisation: read from measured runs, in a small table.
 //
 //   problem,use,ground,axes,cells,along,precision,update,cfl,force,cost
 //   blade_flat,blade,sand,2,8,2,double,usavg,0.5,0.985,170
@@ -58,14 +58,14 @@ struct ForceRun {
   std::string problem;
   ToolUse use = ToolUse::blade;
   Ground ground = Ground::sand;
-  int axes = 2;        ///< of its grid: 2 or 3
+  int axes = 2;        ///< number of axes of its grid: 2 or 3
   double cells = 0.0;  ///< across the tool
   int along = 2;
   Precision precision = Precision::float64;
   UpdateScheme update = UpdateScheme::usavg;
-  double cfl = 0.5;    ///< of an implicit step its length over sqrt(cell / gravity)
+  double cfl = 0.5;    ///< cfl; for an implicit step its length over sqrt(cell / gravity)
   double force = 1.0;  ///< over the answer
-  double cost = 0.0;   ///< of a particle's step, one thread [ns]; 0 where it was not timed
+  double cost = 0.0;   ///< cost of a particle's step, one thread [ns]; 0 where it was not timed
 };
 
 /// Parts of the error, relative to the force.

@@ -1,4 +1,4 @@
-// How long a run will take, and its pace: simulated over wall time.
+// Duration of a run, and its pace: simulated over wall time.
 //
 // A forecast and no promise: it takes the steps that were timed for all the others. Stepping alone, without outputs.
 // Others may cost more or less: where a tool has not touched yet, or material sleeps or will. A rehearsal foresees that
@@ -21,8 +21,8 @@ struct Forecast {
   std::uint64_t particles = 0;
   int threads = 1;
   double simulated = 0.0;  ///< time that is to be simulated [s]; 0: it has no end
-  bool sleeps = false;     ///< whether material may sleep
-  bool tools = false;      ///< whether there are rigid bodies
+  bool sleeps = false;     ///< true if material may sleep
+  bool tools = false;      ///< true if there are rigid bodies
 
   double steps() const { return simulated * cost.steps_per_second; }
   double wall_seconds() const { return steps() * cost.step_seconds; }

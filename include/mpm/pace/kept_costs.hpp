@@ -39,8 +39,8 @@ class KeptCosts {
 
 /// $XDG_CACHE_HOME/mpm_ros/step_costs.csv, or the same below ~/.cache; empty when neither is set.
 std::string kept_costs_path();
-/// Of a scene's text with all that was set in it, an instruction set and a number of threads (0: chosen by the run), on
-/// this machine and with this build.
+/// Key of a scene's text with all that was set in it, an instruction set and a number of threads (0: chosen by the
+/// run), on this machine and with this build.
 std::string cost_key(const std::string& scene_text, Isa isa, int threads);
 /// Seconds since 1970.
 std::int64_t wall_time();

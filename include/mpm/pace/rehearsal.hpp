@@ -26,7 +26,7 @@ struct Rehearsal {
   double touched = 0.0;           ///< part of the steps in which a tool touched
   double contact = 1.0;           ///< cost of an awake particle's step while a tool touches over that while none does
   double steps = 1.0;             ///< steps a second in the whole run over those at its start
-  double particle_step = 0.0;     ///< of an awake particle [s]
+  double particle_step = 0.0;     ///< cost of the step of an awake particle [s]
   std::vector<ToolAtWork> tools;  ///< in the ground, now or later, if they were asked for
 };
 

@@ -1,4 +1,4 @@
-// What a step of a run costs on this machine, timed on steps of the run itself.
+// Cost of a step of a run on this machine, timed on steps of the run itself.
 //
 // A Simulation that serves for nothing else makes steps for a part of a second, so contact, law, shape function,
 // precision and threads are those of the scene. Weak: a tool that touches nothing yet costs nothing yet, material that
@@ -14,14 +14,14 @@
 
 namespace mpm::pace {
 
-constexpr double kTimeUnit = 1e-9;  ///< of simulated time [s]
+constexpr double kTimeUnit = 1e-9;  ///< unit of simulated time [s]
 
 struct StepCost {
   double step_seconds = 0.0;      ///< wall time of a step [s]
   double steps_per_second = 0.0;  ///< steps in a second of simulated time [1/s]
   std::uint64_t steps = 0;        ///< steps that were timed
   double awake = 1.0;             ///< part of the particles that did not sleep at the end of them
-  bool touched = true;            ///< whether a rigid body was in contact then
+  bool touched = true;            ///< true if a rigid body was in contact then
   double rehearsed = 0.0;  ///< if positive, it is of the whole run, by a rehearsal in cells so many times as wide
 };
 

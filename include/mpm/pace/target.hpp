@@ -1,4 +1,4 @@
-// What a run is to reach, a pace or an error of the force on its tool, and which discretisation reaches it.
+// Target of a run, a pace or an error of the force on its tool, and the discretisation that reaches it.
 //
 // For a pace: of all candidates that are expected to reach it with a tenth to spare, and whose error is at most
 // Target::most_error, the one with the least error. For an error: of all that keep it, the fastest. Where no candidate
@@ -21,20 +21,20 @@
 
 namespace mpm::pace {
 
-inline constexpr double kMostError = 0.4;  ///< of the force, at most; with more the figures say little
+inline constexpr double kMostError = 0.4;  ///< largest error of the force; with more the figures say little
 
 /// Exactly one of the first two.
 struct Target {
   std::optional<double> real_time;    ///< simulated over wall time
-  std::optional<double> force_error;  ///< relative to the force on the tool
-  std::vector<std::string> keep;      ///< of discretisation_keys(): stay as the scene has them
+  std::optional<double> force_error;  ///< error relative to the force on the tool
+  std::vector<std::string> keep;      ///< discretisation_keys() that stay as the scene has them
   /// Axis across whose middle plane the scene is its own mirror image: the half above it is modelled.
   std::optional<int> symmetric;
-  std::optional<ToolUse> use;      ///< of all tools, as the scene says it
+  std::optional<ToolUse> use;      ///< use of all tools, as the scene says it
   std::optional<double> length;    ///< that cells count across, as the scene says it [m]
-  double most_error = kMostError;  ///< that a choice for a pace may have; infinite where no error is known
-  double extent = 0.0;             ///< of the smallest tool, where no length is known otherwise [m]
-  /// Of a scene for which the choice was made before: what was set in it, "key=value"; it is not made anew.
+  double most_error = kMostError;  ///< largest error of a choice for a pace; infinite where no error is known
+  double extent = 0.0;             ///< extent of the smallest tool, where no length is known otherwise [m]
+  /// Settings of a scene for which the choice was made before, "key=value"; it is not made anew.
   std::optional<std::vector<std::string>> chosen;
   double expected_pace = 0.0, expected_error = 0.0;  ///< beside `chosen`
 
@@ -52,10 +52,10 @@ struct Candidate {
 };
 
 inline constexpr double kSpare = 1.1;        ///< the pace that is asked of a candidate over the pace wanted
-inline constexpr double kSameError = 0.001;  ///< of the force
+inline constexpr double kSameError = 0.001;  ///< difference relative to the force
 inline constexpr double kSamePace = 0.02;    ///< relative
 
-/// What the pace of candidates is computed from.
+/// Costs that the pace of candidates is computed from.
 struct StepCosts {
   GeometryKind geometry = GeometryKind::solid;
   Discretisation base;         ///< that was timed
@@ -64,7 +64,7 @@ struct StepCosts {
   double wave_time = 0.0;      ///< in which the fastest wave crosses a cell of the base, by its shortest edge [s]
   std::optional<double> step;  ///< upper limit of the step [s]
   double fastest = 0.0;        ///< speed of a tool's surface, which limits implicit steps [m/s]
-  /// Of one particle's step in the base's grid [s].
+  /// Cost of one particle's step in the base's grid [s].
   std::function<double(Precision, UpdateScheme)> particle_step;
 
   /// Number of steps in a sync period.
@@ -81,7 +81,7 @@ std::vector<Candidate> candidates(const Target& target, const std::vector<ToolIn
                                   const SimulationDefinition& definition, const ForceErrors& errors,
                                   const StepCosts& costs);
 
-/// Whether a candidate reaches the target.
+/// True if a candidate reaches the target.
 bool reaches(const Target& target, const Candidate& candidate);
 /// The place in `all` of the one to take, by the rule above. @param all at least one
 std::size_t choose(const Target& target, const std::vector<Candidate>& all);

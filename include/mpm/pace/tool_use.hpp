@@ -1,4 +1,4 @@
-// How tools meet the ground in a run: how deep they reach, and whether they dig across it, are pressed into it or roll
+// Use of tools in the ground in a run: how deep they reach, and whether they dig across it, are pressed into it or roll
 // on it. It decides how many cells lie across what the tool does to the ground, and which measured runs tell the error
 // of its force (mpm/pace/force_errors.hpp).
 //
@@ -56,12 +56,12 @@ class ToolsInGround {
   /// `turned`: by how much since the look before [rad], which may be more than a turn.
   void look_at(Way& way, const Surface& surface, const Pose& pose, double turned) const;
 
-  std::vector<int> axes_, level_;  ///< of the scene, and those of them across gravity
+  std::vector<int> axes_, level_;  ///< axes of the scene, and those of them across gravity
   int up_ = 2;
-  double sense_ = 1.0;  ///< of up along that axis
+  double sense_ = 1.0;  ///< sign of up along that axis
   Vec3 low_ = Vec3::Zero(), cell_ = Vec3::Zero();
   std::array<int, 3> columns_{1, 1, 1};
-  std::vector<double> heights_;  ///< of columns, along up; -infinity in those without ground
+  std::vector<double> heights_;  ///< heights of columns, along up; -infinity in those without ground
   std::vector<Way> ways_;
   double last_ = 0.0;  ///< time of the look before [s]
 };

@@ -42,14 +42,14 @@ class ParticleOrder {
     end_ = std::max(end_, static_cast<std::size_t>(span.first) + span.count);
   }
 
-  /// How many particles are in it.
+  /// Number of particles in it.
   std::size_t count() const { return count_; }
   /// One past the last place in it.
   std::size_t end() const { return end_; }
-  /// Where those asleep lie, one after another.
+  /// Place from which on those asleep lie, one after another.
   std::size_t asleep_from() const { return asleep_from_; }
   std::size_t asleep() const { return asleep_; }
-  /// Whether a set has no other particles and those in this order.
+  /// True if a set has no other particles and those in this order.
   bool is_as_in_memory(const ParticleSet& set) const {
     return count_ == end_ && spans_.size() <= 1 && count_ + asleep_ == set.id.size();
   }

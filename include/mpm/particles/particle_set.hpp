@@ -28,7 +28,7 @@ inline constexpr double kMostSurface = 2.0;
 struct ParticleSet {
   static constexpr int kRestGroup = 4096;
 
-  std::string name;  ///< of the body
+  std::string name;  ///< name of the body
   /// Mass of each particle where all have the same, of a whole place of the lattice where a surface cuts some; 0 of
   /// rings [kg].
   double mass = 0.0;
@@ -39,18 +39,19 @@ struct ParticleSet {
   /// So many particles, the last ones, take no part in steps: they are at rest, in no block and no group, and every
   /// array keeps them as they are (sleep/sleeping_blocks.hpp).
   int asleep = 0;
-  /// Of each kRestGroup places: how often particles fell asleep there or changed places. Empty where nothing sleeps.
+  /// Counts, for each kRestGroup places, of how often particles fell asleep there or changed places. Empty where
+  /// nothing sleeps.
   std::vector<std::uint32_t> rest_changes;
   /// Some have fallen asleep or woken on any rank, and others changed places with them: sorts take the particles of a
   /// node in the order of their ids, which is the same on any number of ranks.
   bool sorts_by_id = false;
   int field = 0;      ///< velocity field of its particles
-  int far_field = 0;  ///< of those on side 1, where a thin tool divides the body
+  int far_field = 0;  ///< velocity field of those on side 1, where a thin tool divides the body
   /// Those on side 1 are near a crack and choose a field at every node; far_field is the number of their patches
   /// (grid/node_choice.hpp).
   bool chooses = false;
 
-  Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
+  Precision precision = Precision::float64;  ///< precision of velocity, deformation, stress and history
 
   PaddedArray<std::uint32_t> id;        ///< unique within the whole run
   std::vector<PaddedArray<double>> x;   ///< position, along grid axes [m]
@@ -58,8 +59,8 @@ struct ParticleSet {
   std::vector<ParticleScalar> f;        ///< deformation gradient, stored components
   std::vector<ParticleScalar> tau;      ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
   std::vector<ParticleScalar> history;  ///< history variables of the law
-  std::vector<ParticleScalar> masses;   ///< where they differ one scalar: of rings, and of a body with cut places [kg]
-  std::vector<ParticleScalar> surface;  ///< of a body with cut places one scalar: reach over that of the box
+  std::vector<ParticleScalar> masses;   ///< one scalar where they differ: for rings and a body with cut places [kg]
+  std::vector<ParticleScalar> surface;  ///< one scalar for a body with cut places: reach over that of the box
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
@@ -68,7 +69,7 @@ struct ParticleSet {
   /// Place in `brought` of the strain that brings no stress; the next one is what it was when the stress was last
   /// computed (kernel/free_strain.hpp). Negative where nothing expands.
   int free_strain = -1;
-  PaddedArray<std::uint8_t> side;  ///< of a divided body: the side of a thin tool, 0 or 1
+  PaddedArray<std::uint8_t> side;  ///< side of a thin tool, for a divided body: 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last one awake.
   /// Empty before the first sort, and before the next one where particles have changed places since the last.
@@ -80,7 +81,7 @@ struct ParticleSet {
 
   int size() const { return static_cast<int>(id.size()); }
   int awake() const { return size() - asleep; }
-  /// Of a particle that chooses its field at every node, the one that it has on its own side.
+  /// Field of a particle; if it chooses at every node, the one that it has on its own side.
   int field_of(int p) const { return side.empty() || side[p] == 0 || chooses ? field : far_field; }
   double mass_of(int p) const { return masses.empty() ? mass : masses[0][p]; }
   double total_mass() const {

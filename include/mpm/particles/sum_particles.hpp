@@ -8,7 +8,7 @@
 
 namespace mpm {
 
-/// Of `term(set, index)`, which is 0 for particles at rest.
+/// Sum of `term(set, index)`, which is 0 for particles at rest.
 template <class Value, class Term>
 Value sum_particles(const std::vector<ParticleSet>& sets, int threads, Value zero, Term&& term) {
   constexpr int kGroup = 4096;

@@ -1,4 +1,4 @@
-// What is wrong on one rank alone, told on all: so that all end together, with one reason.
+// Fault on one rank alone, told on all: so that all end together, with one reason.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace mpm {
 
-/// What the lowest rank that says something says; empty if none does. Collective.
+/// Text of the lowest rank that says something; empty if none does. Collective.
 inline std::string first_text(Communicator& ranks, const std::string& own) {
   for (const Communicator::Bytes& bytes : ranks.gather(bytes_of(std::vector<char>(own.begin(), own.end())))) {
     const std::vector<char> text = list_of<char>(bytes);

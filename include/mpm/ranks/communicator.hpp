@@ -24,7 +24,7 @@ class RanksError : public Error {
 class Communicator {
  public:
   using Bytes = std::vector<std::byte>;
-  /// What one rank sends to another.
+  /// Data that one rank sends to another.
   struct Parcel {
     int rank;  ///< to whom, or from whom
     Bytes bytes;
@@ -47,7 +47,7 @@ class Communicator {
   virtual ~Communicator() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
-  /// How many ranks share this one's machine, and so its memory, it among them.
+  /// Number of ranks that share this one's machine, and so its memory, it among them.
   virtual int on_this_machine() const { return size(); }
   bool first() const { return rank() == 0; }
 
@@ -55,7 +55,7 @@ class Communicator {
   virtual void sum(double* numbers, int count) = 0;
   /// Replaces each of `count` numbers by the largest of all ranks; not a number if it is not a number on any.
   virtual void largest(double* numbers, int count) = 0;
-  /// What each rank gives, by rank, on all ranks.
+  /// Returns what each rank gives, by rank, on all ranks.
   virtual std::vector<Bytes> gather(const Bytes& own) = 0;
   /// Hands over parcels to other ranks. Returns those for this rank, in the order of the senders.
   virtual std::vector<Parcel> deliver(const std::vector<Parcel>& parcels) = 0;

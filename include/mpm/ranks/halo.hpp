@@ -31,7 +31,7 @@ namespace mpm {
 
 class Halo {
  public:
-  /// Whether all ranks have to have a block: by its coordinates.
+  /// True if all ranks have to have a block: by its coordinates.
   using Everywhere = std::function<bool(const std::array<int, 3>&)>;
 
   /// Both must outlive this object.
@@ -56,7 +56,7 @@ class Halo {
   const BlockShares& inside(int field) const { return fields_[field].inside; }
   /// The nodes of a block, one bit each.
   using Nodes = std::uint64_t;
-  /// Of each block of a velocity field, adds the nodes that others may give to.
+  /// Adds the nodes that others may give to, for each block of a velocity field.
   void add_reached(int field, std::vector<Nodes>& nodes) const {
     for (const Piece& piece : fields_[field].in) nodes[piece.block] |= piece.nodes;
   }
@@ -75,8 +75,8 @@ class Halo {
   struct Given {
     Use use;
     int rank;     ///< by whom
-    bool met;     ///< whether this rank has the block, too, in some field
-    bool to_all;  ///< whether all ranks are sent it
+    bool met;     ///< true if this rank has the block, too, in some field
+    bool to_all;  ///< true if it is sent to all ranks
   };
   /// Nodes of a block as they are sent, in a buffer of nodes.
   struct Piece {
@@ -90,11 +90,11 @@ class Halo {
   struct Sum {
     int block;
     int first, count, before;
-    bool own;  ///< whether this rank gives to it
+    bool own;  ///< true if this rank gives to it
   };
   struct OfField {
     std::vector<Piece> out, in;
-    int out_rows = 0, in_rows = 0;  ///< of kRow nodes each
+    int out_rows = 0, in_rows = 0;  ///< rows of kRow nodes each
     std::vector<Sum> sums;
     std::unique_ptr<Communicator::Copies> copies;
     std::vector<double> sent, received;
@@ -103,7 +103,7 @@ class Halo {
 
   std::vector<int> ranks_around(const GridLayout& layout, std::uint64_t key) const;
   bool owns(const Use& use) const;
-  /// Of each block of a grid, the nodes that its owners may give to.
+  /// Nodes that the owners of each block of a grid may give to.
   std::vector<Nodes> reach(const BlockTable& blocks) const;
   void find_own(const Fields& fields, const Everywhere& everywhere);
   /// Tells others what this rank gives to, and hears what they do.
@@ -126,8 +126,8 @@ class Halo {
   std::vector<OfField> fields_;
   std::uint64_t numbers_received_ = 0;
 
-  // Of the last meeting.
-  std::vector<Use> own_;                 ///< what this rank gives to, ascending
+  // Results of the last meeting.
+  std::vector<Use> own_;                 ///< blocks that this rank gives to, ascending
   std::vector<std::uint64_t> own_keys_;  ///< the same, in whichever field
   std::vector<std::vector<Use>> told_;   ///< to each rank
   std::vector<Use> told_all_;

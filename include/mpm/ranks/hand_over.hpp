@@ -41,7 +41,7 @@ class HandOver {
   /// Particles of the fullest rank over the mean of all, at the last call of hand_over().
   double imbalance() const { return imbalance_; }
   std::uint64_t handed_over() const { return handed_over_; }  ///< particles of this rank, since the start
-  std::uint64_t divisions() const { return divisions_; }      ///< how often the grid was divided anew
+  std::uint64_t divisions() const { return divisions_; }      ///< number of times that the grid was divided anew
   /// For checkpoints.
   void serialise(StateArchive& archive) {
     archive.value("after_cut", after_cut_);
@@ -74,11 +74,11 @@ class HandOver {
   static void pack(ParticleSet& set, const Part& part, Communicator::Bytes& bytes);
   /// Puts those that come where others have left, and into the order by the blocks that they were sorted into.
   static void take_in(ParticleSet& set, Leaving& leaving, std::vector<Unpacking>& coming, ParticleOrder& order);
-  /// Of each block of this rank, the number of its particles.
+  /// Number of particles of each block of this rank.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
-  /// Whether a block and all around it are this rank's.
+  /// True if a block and all around it are this rank's.
   bool is_inside(std::uint64_t key);
-  /// Whether particles [begin, end) lie in that block or one around it.
+  /// True if particles [begin, end) lie in that block or one around it.
   bool are_around(const ParticleSet& set, int begin, int end, std::uint64_t key) const;
   void find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving);
   void cut(const std::vector<ParticleSet>& sets);
@@ -90,10 +90,10 @@ class HandOver {
   const GridLayout& layout_;
   std::unordered_map<std::uint64_t, bool> inside_;  ///< is_inside() of blocks asked about since the last cut
   double imbalance_ = 1.0;
-  double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
-  bool just_divided_ = false;  ///< whether that is to be found
+  double after_cut_ = 1.0;     ///< imbalance that the last division left, as the call after it finds it
+  bool just_divided_ = false;  ///< true if that is to be found
   std::uint64_t handed_over_ = 0, divisions_ = 0;
-  std::vector<ParticleOrder> orders_;  ///< of each set
+  std::vector<ParticleOrder> orders_;  ///< order of each set
 };
 
 }  // namespace mpm

@@ -36,7 +36,7 @@ std::vector<T> gather_list(Communicator& ranks, const std::vector<T>& own) {
   return all;
 }
 
-/// What each rank has for each other one, by rank; what is for itself stays. Returns what has come, by rank.
+/// Sends what each rank has for each other one, by rank; what is for itself stays. Returns what has come, by rank.
 /// Collective.
 template <class T>
 std::vector<std::vector<T>> exchange(Communicator& ranks, std::vector<std::vector<T>> by_rank) {

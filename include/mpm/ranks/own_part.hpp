@@ -1,4 +1,4 @@
-// Which particles are a rank's from the start, so that it never has those of others. All ranks look at the places of
+// Choice of a rank's particles from the start, so that it never has those of others. All ranks look at the places of
 // all particles and count them by block; the grid is divided by these numbers, as it is later in the run
 // (territory.hpp); then they look at all places once more, and each keeps what lies in its own blocks.
 //
@@ -43,7 +43,7 @@ class OwnPart {
   const GridLayout layout_;
   Territory territory_;
   std::vector<Body> bodies_;
-  // Of the last place asked about: neighbours are in the same block mostly.
+  // Block of the last place asked about: neighbours are in the same block mostly.
   std::uint64_t last_ = ~std::uint64_t{0};
   bool last_kept_ = false;
 };

@@ -1,6 +1,6 @@
-// Which rank a block of the grid belongs to: the blocks in their order along the Hilbert curve, cut into as many parts
-// as there are ranks, with nearly as many particles each. A rank keeps the cuts alone, so nothing here grows with the
-// grid.
+// Choice of the rank that a block of the grid belongs to: the blocks in their order along the Hilbert curve, cut into
+// as many parts as there are ranks, with nearly as many particles each. A rank keeps the cuts alone, so nothing here
+// grows with the grid.
 #pragma once
 
 #include <array>
@@ -40,9 +40,9 @@ class Territory {
   std::uint64_t place(std::uint64_t key) const;
 
   const GridLayout& layout_;
-  int bits_;                         ///< of a block's number along an axis
+  int bits_;                         ///< bits of a block's number along an axis
   std::vector<std::uint64_t> cuts_;  ///< rank r has the places [cuts_[r], cuts_[r + 1]) of the curve
-  mutable std::unordered_map<std::uint64_t, int> known_;  ///< of keys asked about since the last cut
+  mutable std::unordered_map<std::uint64_t, int> known_;  ///< ranks of keys asked about since the last cut
 };
 
 }  // namespace mpm

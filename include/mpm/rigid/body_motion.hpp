@@ -1,4 +1,4 @@
-// How a rigid body moves: prescribed (by functions of time or commands), prescribed as a ring that opens, or free
+// Motion of a rigid body: prescribed (by functions of time or commands), prescribed as a ring that opens, or free
 // (rigid/free_motion.hpp). A body keeps one of these for the whole run; all have the same interface.
 #pragma once
 
@@ -29,10 +29,10 @@ class BodyMotion {
     return twist;
   }
 
-  // Why a body refuses a command of this kind, and what to do instead; empty if it takes it.
+  // Reason why a body refuses a command of this kind, and what to do instead; empty if it takes it.
   virtual std::string refused_velocity() const { return {}; }
   virtual std::string refused_pose() const { return {}; }
-  /// Why the body cannot be at the pose, and what to do instead; empty if it can.
+  /// Reason why the body cannot be at the pose, and what to do instead; empty if it can.
   virtual std::string refused(const Pose& /*pose*/) const { return {}; }
 
  protected:

@@ -16,7 +16,7 @@ namespace mpm {
 /// A surface and its pose in the body's frame.
 struct PlacedSurface {
   std::shared_ptr<const Surface> surface;  ///< bounded along every axis
-  Pose pose;                               ///< of the surface's frame in the body's [m]
+  Pose pose;                               ///< pose of the surface's frame in the body's [m]
 };
 
 /// Makes one surface of several parts. Of parts that are equally near the first counts. The thickness is that of the

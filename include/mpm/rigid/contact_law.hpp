@@ -1,4 +1,4 @@
-// How two surfaces that meet act on each other, as the scene defines it: Coulomb's law, sticking, adhesion, or an
+// Action of two surfaces that meet on each other, as the scene defines it: Coulomb's law, sticking, adhesion, or an
 // imperfect interface; and the values of that law at one time.
 //
 // Source: Nairn, GIMP notes (3.12)-(3.20) and method reference 8.3 for friction, 8.4 for the interface; manual,
@@ -14,7 +14,7 @@ namespace mpm {
 
 /// A contact law at one time. Surfaces separate freely unless they adhere.
 struct FrictionLaw {
-  double coefficient = 0.0;  ///< of sliding, >= 0
+  double coefficient = 0.0;  ///< coefficient of sliding, >= 0
   bool stick = false;        ///< no sliding while pressed together
   /// Coefficient at rest, >= coefficient; negative: the same as coefficient.
   double static_coefficient = -1.0;
@@ -40,7 +40,7 @@ struct ContactLaw {
     one_field  ///< the two share one velocity, as if they were one body
   };
   Kind kind = Kind::coulomb;
-  Function friction;                        ///< of sliding
+  Function friction;                        ///< coefficient of sliding
   std::optional<Function> static_friction;  ///< at rest; without it the same as `friction`
   Function adhesion;                        ///< [Pa]
   InterfaceLaw interface;

@@ -26,11 +26,11 @@ namespace mpm {
 /// The definition of a free body.
 struct FreeDefinition {
   double mass = 0.0;            ///< [kg]; in a planar scene of the whole thickness
-  Vec3 centre = Vec3::Zero();   ///< of mass, body axes [m]
+  Vec3 centre = Vec3::Zero();   ///< centre of mass, body axes [m]
   Mat3 inertia = Mat3::Zero();  ///< about the centre of mass, body axes [kg m^2]
-  /// Which velocities are free, world axes: x, y, z, then the rotation rates about them.
+  /// Marks of free velocities, world axes: x, y, z, then the rotation rates about them.
   std::array<bool, 6> axes = {true, true, true, true, true, true};
-  /// Which of these degrees of freedom the scene's geometry has.
+  /// Marks of those of these degrees of freedom that the scene's geometry has.
   std::array<bool, 6> present = {true, true, true, true, true, true};
   Twist velocity;  ///< at the start, of the body's origin
   Wrench wrench;   ///< acts until another one is applied
@@ -54,7 +54,7 @@ struct BodyMomentum {
 struct FreeBodyReport {
   std::string body;
   double mass = 0.0;           ///< [kg]
-  Vec3 centre = Vec3::Zero();  ///< of mass, world [m]
+  Vec3 centre = Vec3::Zero();  ///< centre of mass, world [m]
   BodyMomentum momentum, initial_momentum;
   BodyMomentum contact;  ///< from the material
   BodyMomentum gravity;
@@ -97,7 +97,7 @@ class FreeMotion final : public BodyMotion {
   }
   /// Change of velocity of a world point by a unit impulse there, along each pair of axes [1/kg].
   Mat3 compliance_at(const Vec3& point) const;
-  /// What is pushed between the two calls is forgotten at the second. `twist`: as predict() has it.
+  /// Begins a trial: what is pushed between the two calls is forgotten at the second. `twist`: as predict() has it.
   void begin_trial(const Pose& pose, const Twist& twist);
   void end_trial();
   /// Sets velocities to zero; they are increments until end_increment() adds them to the previous velocities.
@@ -136,7 +136,7 @@ class FreeMotion final : public BodyMotion {
   bool turns_freely_ = false;  ///< angular momentum is carried from step to step
   Wrench wrench_;
 
-  // Of the step.
+  // State within the step.
   Vec3 centre_ = Vec3::Zero();
   Vec3 velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();
   Vec3 start_velocity_ = Vec3::Zero(), start_rate_ = Vec3::Zero();

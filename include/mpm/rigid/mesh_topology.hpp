@@ -19,7 +19,7 @@ void check_triangle_count(std::size_t triangles);
 /// A mesh whose surface is closed. Side 3 t + e of triangle t leads from its corner e to the next one.
 struct SolidMesh {
   TriangleMesh mesh;
-  std::vector<int> mate;  ///< of each side, the one along it in the other direction
+  std::vector<int> mate;  ///< side along each side in the other direction
   std::vector<int> part;  ///< connected part of each triangle, from 0
   int parts = 0;
 };

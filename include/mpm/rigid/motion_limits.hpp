@@ -1,4 +1,4 @@
-// How fast a rigid body may be moved by commands.
+// Limits of the motion that commands give to a rigid body.
 #pragma once
 
 #include <limits>
@@ -9,9 +9,9 @@ namespace mpm {
 struct MotionLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
-  double speed = kNone;                  ///< of the body's origin [m/s]
+  double speed = kNone;                  ///< speed of the body's origin [m/s]
   double rotation_rate = kNone;          ///< [rad/s]
-  double acceleration = kNone;           ///< of the body's origin [m/s^2]
+  double acceleration = kNone;           ///< acceleration of the body's origin [m/s^2]
   double rotation_acceleration = kNone;  ///< [rad/s^2]
 
   bool any() const {

@@ -21,8 +21,8 @@
 
 namespace mpm {
 
-/// Whether the material on the two sides of a body has a velocity field each (contact/tool_sides.hpp). Automatic: if
-/// the body is thinner than three cells somewhere.
+/// Choice of whether the material on the two sides of a body has a velocity field each (contact/tool_sides.hpp).
+/// Automatic: if the body is thinner than three cells somewhere.
 enum class Sides { automatic, one, two };
 
 /// The definition of a rigid body.
@@ -30,7 +30,7 @@ struct RigidBodyDefinition {
   std::string name;
   std::shared_ptr<const Surface> surface;
   Pose pose;                              ///< at time zero
-  std::array<Function, 3> velocity;       ///< of the origin, world axes, functions of t [m/s]
+  std::array<Function, 3> velocity;       ///< velocity of the origin, world axes, functions of t [m/s]
   std::array<Function, 3> rotation_rate;  ///< world axes, functions of t [rad/s]
   FrictionLaw friction;
   /// Distance outside the surface within which nodes are in contact too, in [0, 1] cells; contact begins earlier by as
@@ -41,16 +41,16 @@ struct RigidBodyDefinition {
   std::vector<std::string> divides;
   /// The mass of a free body, and which of its velocities are free. Without it all velocities are prescribed.
   std::optional<FreeDefinition> free;
-  /// Whether the body is filled with particles; contact is then found from volumes and volume gradients at nodes
+  /// True if the body is filled with particles; contact is then found from volumes and volume gradients at nodes
   /// (contact/rigid_particle_contact.hpp) instead of the surface.
   bool particles = false;
   /// Radius [m] of a ring in an axisymmetric scene, as its surface was made; 0 for any other body. A ring opens and
   /// closes along x: pose.position.x is the change of its radii [m].
   double inner_radius = 0.0;
-  double outer_radius = 0.0;  ///< of a ring [m]
+  double outer_radius = 0.0;  ///< outer radius of a ring [m]
 };
 
-/// What a body follows at the moment.
+/// Input that a body follows at the moment.
 enum class Drive : std::uint8_t { functions = 0, velocity = 1, pose = 2 };
 
 class RigidBody {
@@ -66,7 +66,7 @@ class RigidBody {
   const Pose& pose() const { return pose_; }
   const Twist& twist() const { return twist_; }
   Drive drive() const { return drive_; }
-  /// Where the surface is now [m]; a body that is endless along an axis stays endless.
+  /// Bounds of the surface now [m]; a body that is endless along an axis stays endless.
   Box world_bounds() const { return mpm::world_bounds(pose_, surface().bounds()); }
   /// The motion of the body: prescribed, as a ring, or free.
   const BodyMotion& motion() const {

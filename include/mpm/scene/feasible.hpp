@@ -12,7 +12,7 @@ namespace mpm {
 /// The time step that the stiffest material of the scene's bodies asks for before it is strained.
 struct WaveStep {
   double dt = 0.0;       ///< in which the wave crosses time.cfl of the smallest cell [s]
-  double speed = 0.0;    ///< of the wave [m/s]
+  double speed = 0.0;    ///< speed of the wave [m/s]
   std::string material;  ///< its name
 };
 WaveStep wave_step(const Scene& scene);
@@ -26,7 +26,7 @@ void check_particles(const Scene& scene, double part = 1.0);
 void check_steps(const Scene& scene);
 /// Refuses transport whose steps would not come to an end (simulation/transport_work.hpp). @throws SceneError
 void check_transport(const Scene& scene);
-/// What to say when memory was refused: the number of particles, and the least memory that they need.
+/// Message for refused memory: the number of particles, and the least memory that they need.
 std::string lack_of_memory(const Scene& scene);
 
 }  // namespace mpm

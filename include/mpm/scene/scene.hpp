@@ -48,14 +48,14 @@ struct BodyDefinition {
   std::string material;
   Region region;
   double jitter = 0.0;                            ///< largest initial offset from the lattice along an axis [cells]
-  std::uint64_t seed = 0;                         ///< of the offsets; 0: that of the standard library
+  std::uint64_t seed = 0;                         ///< seed of the offsets; 0: that of the standard library
   std::array<Function, 3> velocity;               ///< initial, functions of place [m/s]
   std::optional<std::array<Function, 6>> stress;  ///< initial Cauchy stress, xx yy zz yz xz xy, of place [Pa]
   bool yy_follows = false;                        ///< plane strain: yy follows from the other components
   std::optional<Function> temperature;            ///< initial, function of place [K]
   std::optional<GeostaticDefinition> geostatic;
   int field = 0;                     ///< velocity field, which follows from contact laws
-  bool cut_out_all = false;          ///< whether particles inside any rigid body are left out
+  bool cut_out_all = false;          ///< true if particles inside any rigid body are left out
   std::vector<std::string> cut_out;  ///< names of rigid bodies inside which particles are left out
   std::string where;                 ///< "file:line: key.path", for errors found while building
   std::string initial_where, cut_out_where;
@@ -68,7 +68,8 @@ struct LoadRegion {
   std::string where;  ///< "file:line: key.path"
 };
 
-/// How commands move a rigid body. This is for the source of the commands; the simulation does not use it.
+/// Definition of the commands that move a rigid body. It is for the source of the commands; the simulation does not use
+/// it.
 struct CommandDefinition {
   std::string frame;    ///< tf frame that the body follows; empty: commands come on topics
   MotionLimits limits;  ///< limits within which commands are kept
@@ -95,8 +96,8 @@ struct Scene {
   /// By Transported, one per entry of its fluxes.
   std::array<std::vector<LoadRegion>, kQuantities> flux_regions;
   OutputDefinition output;
-  std::optional<pace::Target> target;  ///< what its discretisation is to be chosen for (target_choice.hpp)
-  std::string path;                    ///< of the file
+  std::optional<pace::Target> target;  ///< target that its discretisation is to be chosen for (target_choice.hpp)
+  std::string path;                    ///< path of the file
   std::string text;                    ///< as loaded, with overrides applied, for the record
   std::vector<std::pair<std::string, std::string>> choices;  ///< key and reason of each choice made here, for --explain
 };

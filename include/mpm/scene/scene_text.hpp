@@ -7,7 +7,7 @@ namespace mpm {
 
 struct SceneText {
   std::string text;
-  std::string path;  ///< of the file
+  std::string path;  ///< path of the file
 };
 
 /// Finds a scene as load_scene() does, and reads it. @throws SceneError

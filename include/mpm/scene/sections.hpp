@@ -99,15 +99,16 @@ void read_transport(const Map& root, Scene& scene);
 void add_transport_keys(const Value& material, const Map& root, std::vector<std::string>& keys);
 /// A material's constants for a quantity; `material`: its index.
 TransportMaterial read_transport_constants(const Map& map, Transported quantity, std::size_t material, Scene& scene);
-/// Of a quantity's value.
+/// Dimension of a quantity's value.
 Dimension value_dimension(Transported quantity);
 /// One of `materials`, with the keys of its law, of transport and of fracture.
 Map material_map(const Value& value, const Map& root);
-/// Of nodes that a condition or a prescribed value holds: `region`, or `shape` and `pose` as of a rigid body.
+/// Reads the region of nodes that a condition or a prescribed value holds: `region`, or `shape` and `pose` as of a
+/// rigid body.
 void read_region_or_shape(const Map& map, const Scene& scene, RigidBodyDefinition& body);
 /// `cracks`, after all that cracks may stand beside: rigid bodies, `boundaries`, `sleep` and `transport`
 void read_cracks(const Map& root, Scene& scene);
-/// Whether the scene names a criterion by which cracks grow.
+/// True if the scene names a criterion by which cracks grow.
 bool cracks_may_grow(const Map& root);
 /// One of `cracks.list`, but for what depends on its tips' materials.
 CrackDefinition read_crack(const Value& value, const Scene& scene);

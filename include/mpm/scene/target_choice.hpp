@@ -1,4 +1,4 @@
-// What a scene with `target` leaves to be chosen: the cells that fit it, and the table of errors.
+// Choices that a scene with `target` leaves: the cells that fit it, and the table of errors.
 //
 // A cell fits when the grid stays a whole number of cells along each axis and every face of a box, and the lower and
 // side faces of ground from a map of heights, that lay on the lattice of particles lies on it again, so that these

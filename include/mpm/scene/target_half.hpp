@@ -12,12 +12,12 @@
 
 namespace mpm {
 
-/// Why a scene is not its own mirror image across the middle of its grid along an axis, or cannot be halved there, and
-/// what to do; empty where the half can be modelled. Shapes of rigid bodies that are height fields are left to the
-/// caller.
+/// Reason why a scene is not its own mirror image across the middle of its grid along an axis, or cannot be halved
+/// there, and what to do; empty where the half can be modelled. Shapes of rigid bodies that are height fields are left
+/// to the caller.
 std::string asymmetry(const Scene& scene, int axis);
-/// What leaves the half above that plane, "key=value": grid, boxes of bodies, and a plane of symmetry as the lower
-/// face. Forces are then those of the half. @param scene without asymmetry
+/// Settings that leave the half above that plane, "key=value": grid, boxes of bodies, and a plane of symmetry as the
+/// lower face. Forces are then those of the half. @param scene without asymmetry
 std::vector<std::string> half_lines(const Scene& scene, int axis);
 
 }  // namespace mpm

@@ -24,7 +24,7 @@ Scene with_chosen(const Scene& scene, const std::vector<std::string>& lines, dou
 /// A scene with the choice of a recorded run of it, or why that is not to be had.
 struct RecordedChoice {
   std::optional<Scene> scene;
-  std::string why;  ///< what differs from the run, where there is no scene
+  std::string why;  ///< difference from the run, where there is no scene
 };
 /// The choice that `recorded`, the text of a run, has, for a scene with the same text but for what was chosen, and with
 /// the values that it was chosen from. A scene without a target, or with a choice of its own, comes back as it is.
@@ -36,7 +36,7 @@ std::string text_without_target(const Scene& scene);
 /// In a scene's tree: where its target is another than `chosen` was made for, takes that choice out again, but for keys
 /// that have been set to something else since.
 void reopen_other_target(const YAML::Node& root);
-/// What speaks against the record in `root`, a scene's tree, or empty. @param root has target.chosen, a list of texts
+/// Fault of the record in `root`, a scene's tree, or empty. @param root has target.chosen, a list of texts
 std::string fault_of_record(const YAML::Node& root);
 
 }  // namespace mpm

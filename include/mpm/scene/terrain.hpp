@@ -25,7 +25,7 @@ class Terrain {
 
   /// Height of the surface [m] above a place within the map.
   double height(double x, double y) const;
-  /// Whether a point lies below the surface, not below `bottom`, and within the part: half-open, as other regions.
+  /// True if a point lies below the surface, not below `bottom`, and within the part: half-open, as other regions.
   bool contains(const Vec3& point) const {
     return point.x() >= low_.x() && point.x() < high_.x() &&
            (planar_ || (point.y() >= low_.y() && point.y() < high_.y())) && point.z() >= bottom_ &&

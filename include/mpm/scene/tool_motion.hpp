@@ -1,4 +1,4 @@
-// How a rigid body moves as far as a scene tells: by its functions of time, at rest where commands are to move it.
+// Motion of a rigid body as far as a scene tells: by its functions of time, at rest where commands are to move it.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct ToolMotion {
   double along = 0.0;        ///< way of its origin along gravity, to and fro [m]
   double across = 0.0;       ///< the same across gravity [m]
   bool turns = false;        ///< by one of its functions
-  std::vector<Vec3> places;  ///< of its origin, relative to where it starts, at equal times [m]
+  std::vector<Vec3> places;  ///< places of its origin, relative to where it starts, at equal times [m]
 };
 
 /// Over the run; over 10 s of one without an end. What functions do not tell at a time is left out: who moves the body

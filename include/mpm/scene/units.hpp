@@ -47,7 +47,7 @@ inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
 inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
 inline constexpr Dimension kPerKelvin{0, 0, 0, 0, -1};
 inline constexpr Dimension kPerPascal{1, -1, 2, 0, 0};
-inline constexpr Dimension kToughness{-0.5, 1, -2, 0};   ///< of fracture, K
+inline constexpr Dimension kToughness{-0.5, 1, -2, 0};   ///< toughness of fracture, K
 inline constexpr Dimension kSurfaceEnergy{0, 1, -2, 0};  ///< energy over area, J and G
 
 /// A dimension in words: "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
@@ -77,7 +77,7 @@ UnitSystem parse_unit_system(const std::string& name);
 /// @throws UnitError when one of the three is not a length, a mass or a time.
 UnitSystem make_unit_system(const std::string& length, const std::string& mass, const std::string& time);
 
-/// Whether `text` is a number, alone or followed by something that may be a unit; sets `value` and `rest`.
+/// True if `text` is a number, alone or followed by something that may be a unit; sets `value` and `rest`.
 bool split_number(const std::string& text, double& value, std::string& rest);
 /// Converts a plain number in `system`, or a number with a unit, to SI.
 /// @throws UnitError when it is neither, is not finite, or has another dimension than expected.

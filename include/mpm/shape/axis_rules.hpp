@@ -1,5 +1,5 @@
-// How an axisymmetric scene treats the neighbourhood of the axis: what a shape function does with a domain that would
-// reach across it, and how particles near it are moved. The defaults are those that measured best
+// Treatment of the neighbourhood of the axis in an axisymmetric scene: what a shape function does with a domain that
+// would reach across it, and how particles near it are moved. The defaults are those that measured best
 // (doc/axisymmetric.md); the others serve for comparison. Source: Nairn & Guilkey (2015) 4.1.
 #pragma once
 
@@ -24,7 +24,7 @@ enum class AxisGhosts {
 /// Radial velocity that moves a particle.
 enum class AxisMotion {
   mean,   ///< averaged by S like the particle's own velocity: that of the mass in its domain
-  point,  ///< of the grid at the particle, interpolated by the hat functions
+  point,  ///< motion of the grid at the particle, interpolated by the hat functions
 };
 
 inline constexpr std::array<const char*, 2> kAxisDomainNames = {"fitted", "whole"};

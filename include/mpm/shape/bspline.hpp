@@ -25,7 +25,7 @@
 
 namespace mpm {
 
-/// What the splines of all particles of a body have in common along one axis.
+/// Data that the splines of all particles of a body share along one axis.
 template <class T>
 struct SplineAxis {
   T inverse_cell;
@@ -33,7 +33,7 @@ struct SplineAxis {
   SplineAxis(double, double per_cell) : inverse_cell(per_cell) {}
 };
 
-/// Where `beyond` holds, moves the weight of the node `outer`, past a wall, to the next two nodes inward.
+/// Moves, where `beyond` holds, the weight of the node `outer`, past a wall, to the next two nodes inward.
 template <class T, class Mask>
 void fold_node(Mask beyond, T& outer, T& next, T& inner) {
   const T lost = select(beyond, outer, T(0));

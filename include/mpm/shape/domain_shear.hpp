@@ -76,7 +76,7 @@ void set_up(double (&d)[Dim][Dim]) {
       std::swap(order[i], order[i - 1]);
     }
   }
-  double sum = 0.0, product = 1.0;  // of b^2 and c^2
+  double sum = 0.0, product = 1.0;  // sum and product of b^2 and c^2
   for (int n = 0; n < Dim; ++n) {
     const Vector& own = edge[order[n]];
     Vector& height = upright[n] = own;

@@ -21,7 +21,7 @@ inline constexpr std::array<const char*, 7> kShapeNames = {"dirac", "ugimp",    
                                                            "qcpdi", "bspline2", "bspline3"};
 inline const char* shape_name(ShapeKind kind) { return kShapeNames[static_cast<int>(kind)]; }
 
-/// Whether the particle's domain follows its deformation; it is then stored at the start of a step and constant in it.
+/// True if the particle's domain follows its deformation; it is then stored at the start of a step and constant in it.
 constexpr bool follows_deformation(ShapeKind kind) {
   return kind == ShapeKind::ugimp_stretch || kind == ShapeKind::cpdi || kind == ShapeKind::qcpdi;
 }

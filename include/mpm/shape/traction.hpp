@@ -44,7 +44,7 @@ struct FaceParts {
   };
   int corners = 0;
   std::array<Corner, 4> corner;    ///< in the order in which the side along the lowest axis changes fastest
-  double area = 0.0;               ///< of the whole face [m^2]
+  double area = 0.0;               ///< area of the whole face [m^2]
   PlacedDomain::Vector middle{};   ///< [m]
   PlacedDomain::Vector outward{};  ///< unit normal
   /// Unit vectors along the half vectors that span the face, in the order of axes: none in a line, one in a plane.

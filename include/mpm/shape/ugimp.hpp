@@ -13,16 +13,16 @@ namespace mpm {
 template <class T>
 struct Ugimp {
   static constexpr int kNodes = 3;              ///< along an axis
-  static constexpr bool kStretches = false;     ///< whether each particle has a half-width of its own
+  static constexpr bool kStretches = false;     ///< true if each particle has a half-width of its own
   static constexpr bool kFoldsAtWalls = false;  ///< has fold(), which removes weight beyond walls
   static constexpr bool kAxisymmetric = false;  ///< has radial(), the function along a radius (shape/axisymmetric.hpp)
 
-  /// What all particles of a body have in common along one axis.
+  /// Data that all particles of a body share along one axis.
   struct Axis {
     T half, scale, slope;
     /// `half`: w, half the box in cells, (0, 1/2]; `inverse_cell` [1/m].
     Axis(double w, double inverse_cell) : half(w), scale(1.0 / (4.0 * w)), slope(inverse_cell / (2.0 * w)) {}
-    /// Where half-widths differ between particles: w, 1/(4 w), and inverse_cell/(2 w) [1/m].
+    /// Data for half-widths that differ between particles: w, 1/(4 w), and inverse_cell/(2 w) [1/m].
     Axis(T w, T quarter_over_w, T per_box) : half(w), scale(quarter_over_w), slope(per_box) {}
   };
 

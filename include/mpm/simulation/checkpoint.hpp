@@ -33,13 +33,13 @@ class CheckpointError : public Error {
 struct CheckpointLabel {
   std::string scene_path;
   std::string scene_text;
-  std::string failure;  ///< why the run has failed; empty if it has not
+  std::string failure;  ///< reason why the run has failed; empty if it has not
 };
 
 /// Description of a checkpoint, stored in it.
 struct CheckpointAbout {
   std::string format;         ///< kCheckpointFormat
-  std::uint32_t version = 0;  ///< of the layout
+  std::uint32_t version = 0;  ///< version of the layout
   std::string program;        ///< version of the package that wrote it
   std::string scene;          ///< its name
   CheckpointLabel label;
@@ -59,7 +59,7 @@ using SerialiseMore = std::function<void(StateArchive&)>;
 /// Returns the description that was stored. @throws CheckpointError; an existing file of that name is not changed then.
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more = {});
-/// Of two texts that are not the same, the first line that differs, in words.
+/// First line that differs between two texts that are not the same, in words.
 std::string text_difference(const std::string& here, const std::string& there);
 /// @throws CheckpointError for a file that is not a checkpoint, or of another version
 CheckpointAbout read_checkpoint(const std::string& path);

@@ -57,7 +57,7 @@ struct TimeDefinition {
 struct MethodDefinition {
   ShapeKind shape = ShapeKind::ugimp;
   UpdateScheme update = UpdateScheme::usavg;
-  std::optional<int> sweeps;  ///< of each implicit step; without it as many as its contacts need
+  std::optional<int> sweeps;  ///< sweeps of each implicit step; without it as many as its contacts need
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
   /// True gives what flows one stress in a cell (mechanics/stress_average.hpp); see averages_stress().
@@ -66,7 +66,7 @@ struct MethodDefinition {
   AxisRules axis;                            ///< axisymmetric scenes alone
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
   int particles_per_direction = 2;           ///< particles along a cell's edge
-  Precision precision = Precision::float64;  ///< of particle data other than positions
+  Precision precision = Precision::float64;  ///< precision of particle data other than positions
 };
 
 /// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.
@@ -78,7 +78,7 @@ struct GeostaticDefinition {
   double residual = 1e-3;    ///< unbalanced force over weight at which it counts as settled
 };
 
-/// Which of a body's particles are here, where other ranks have the rest.
+/// Part of a body's particles that is here, where other ranks have the rest.
 struct BodyPart {
   std::vector<std::uint32_t> numbers;  ///< among all particles of the body, ascending; one for each position here
   std::uint64_t whole = 0;             ///< particles of the body on all ranks
@@ -98,18 +98,18 @@ struct DeformableBody {
   std::vector<Vec3> positions;               ///< particle centres [m]
   std::vector<Vec3> velocities;              ///< one each, or empty for rest [m/s]
   std::vector<Symmetric3<double>> stresses;  ///< Cauchy stress at the start, one each, or empty [Pa]
-  /// Whether in plane strain the yy of these stresses follows from the others. In a line yy and zz always do; in plane
+  /// True if in plane strain the yy of these stresses follows from the others. In a line yy and zz always do; in plane
   /// stress they are zero.
   bool yy_follows = false;
   std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
-  double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
-  std::vector<double> parts;     ///< of it, that each particle has; empty where each has all of it
+  double particle_volume = 0.0;  ///< volume of a particle at the start [m^3]; for rings the area of their section [m^2]
+  std::vector<double> parts;     ///< part of it that each particle has; empty where each has all of it
   /// Distance of each particle's centre from the surface of the body beside it, over the reach of its box (or 1 away
   /// from it): so far contact sees it reach. Empty where that is 1 for each.
   std::vector<double> surfaces;
   std::optional<ParticleLattice> lattice;  ///< without it the grid's: particles_per_direction from grid.min on
-  std::string filling;                     ///< what differs from the grid's lattice, for reports; may be empty
+  std::string filling;                     ///< difference from the grid's lattice, for reports; may be empty
   std::optional<BodyPart> part;            ///< without it all particles of the body are here
 };
 
@@ -125,7 +125,7 @@ struct ParticleForceDefinition {
   std::string body;                      ///< deformable body that it acts on
   std::vector<std::uint32_t> particles;  ///< by number among all of the body's, on all ranks; all when empty
   std::array<Function, 3> force;         ///< [N]
-  bool shared = true;  ///< whether the force is shared by all of them in proportion to mass, or acts on each
+  bool shared = true;                    ///< true if they share the force in proportion to mass; else it acts on each
   LoadSpread spread = LoadSpread::domain;
 };
 
@@ -133,16 +133,16 @@ struct ParticleForceDefinition {
 /// (mechanics/face_tractions.hpp), as functions of time, place and place at the start.
 struct TractionDefinition {
   std::string body;  ///< deformable body that it acts on
-  int face = 0;      ///< of the particles' domains, in the order of kWallNames
+  int face = 0;      ///< face of the particles' domains, in the order of kWallNames
   /// By number among all of the body's, on all ranks; the outermost of each row when empty.
   std::vector<std::uint32_t> particles;
-  bool follows = false;  ///< whether its axes turn with the face's normal and edges
+  bool follows = false;  ///< true if its axes turn with the face's normal and edges
   /// Components along world axes [Pa]; if it follows the face, pressure (compression is positive), then shear along the
   /// edges that span the face, in the order of axes.
   std::array<Function, 3> value;
 };
 
-/// Where contact with rigid bodies acts.
+/// Place where contact with rigid bodies acts.
 enum class ContactMethod {
   points,  ///< at points of the material's surface (contact/point_contact.hpp)
   nodes    ///< at the grid's nodes in the body (contact/rigid_contact.hpp)
@@ -186,8 +186,8 @@ struct MetricDefinition {
 struct SimulationDefinition {
   std::string name;
   GeometryKind geometry = GeometryKind::solid;
-  double thickness = 1.0;  ///< of a planar scene, along y [m]
-  double area = 1.0;       ///< of a line, across x [m^2]
+  double thickness = 1.0;  ///< thickness of a planar scene, along y [m]
+  double area = 1.0;       ///< area of a line, across x [m^2]
   GridDefinition grid;
   TimeDefinition time;
   MethodDefinition method;

@@ -1,4 +1,4 @@
-// Which materials, starts, faces and forces a geometry cannot have, and what can be used instead: one place for scenes
+// Materials, starts, faces and forces that a geometry cannot have, and what can be used instead: one place for scenes
 // and for definitions made by hand.
 #pragma once
 
@@ -9,21 +9,22 @@
 
 namespace mpm {
 
-/// Why a body of this material cannot be in such a scene, and what can be used instead; empty when it can.
+/// Reason why a body of this material cannot be in such a scene, and what can be used instead; empty when it can.
 /// @throws MaterialError for constants that no law can have
 std::string refused_material(GeometryKind geometry, const MaterialDefinition& material);
 
-/// What a user of this material in such a scene should know; empty when there is nothing.
+/// Warning for a user of this material in such a scene; empty when there is nothing.
 std::string material_warning(GeometryKind geometry, const MaterialDefinition& material);
 
-/// Why a geometry cannot have a geostatic start, and what can be used instead; empty when it can.
+/// Reason why a geometry cannot have a geostatic start, and what can be used instead; empty when it can.
 std::string refused_geostatic(GeometryKind geometry);
 
 struct AxisFault {
-  std::string key;   ///< of the scene's section: "grid", "boundaries", "gravity", "bodies"
-  std::string text;  ///< what is wrong, and what to write instead
+  std::string key;   ///< key of the scene's section: "grid", "boundaries", "gravity", "bodies"
+  std::string text;  ///< fault, and what to write instead
 };
-/// Why a scene cannot have its grid, gravity, faces or bodies about an axis; none when it can, or is not axisymmetric.
+/// Reason why a scene cannot have its grid, gravity, faces or bodies about an axis; none when it can, or is not
+/// axisymmetric.
 std::optional<AxisFault> axis_fault(const SimulationDefinition& definition);
 
 }  // namespace mpm

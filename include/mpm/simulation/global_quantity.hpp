@@ -22,10 +22,10 @@ struct GlobalQuantity {
 std::vector<std::pair<std::string, std::string>> global_quantity_names();
 /// Those of them that are numbers which modules report.
 std::vector<std::string> reported_number_names();
-/// Why there is no such quantity (the nearest name, or the feature that is not built yet), or why it cannot be that of
-/// one body. Empty for a valid quantity. Whether the body exists is not checked.
+/// Reason why there is no such quantity (the nearest name, or the feature that is not built yet), or why it cannot be
+/// that of one body. Empty for a valid quantity. Whether the body exists is not checked.
 std::string problem_of(const GlobalQuantity& quantity);
-/// Whether its body, if it names one, is a rigid one.
+/// True if its body, if it names one, is a rigid one.
 bool of_rigid_body(const GlobalQuantity& quantity);
 
 class Simulation;

@@ -10,9 +10,9 @@
 
 namespace mpm {
 
-/// Why a method is impossible, and what can be used instead.
+/// Reason why a method is impossible, and what can be used instead.
 struct MethodFault {
-  std::string key;   ///< of the scene's section `method` that has to change: "transfer", "damping.placement"
+  std::string key;   ///< key of the scene's section `method` that has to change: "transfer", "damping.placement"
   std::string text;  ///< the fault, and what to write instead
 };
 

@@ -1,4 +1,4 @@
-// Which particles are read, and the fields that are read for them.
+// Choice of the particles that are read, and of the fields that are read for them.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct ParticleChoice {
 /// Fields of the chosen particles, in order of id.
 struct ParticleColumns {
   std::vector<std::uint32_t> ids;
-  std::vector<std::vector<float>> values;  ///< of each field, one a particle; SI
+  std::vector<std::vector<float>> values;  ///< values of each field, one a particle; SI
 };
 
 }  // namespace mpm

@@ -1,4 +1,4 @@
-// How a run over several ranks ends that fails on one of them alone.
+// End of a run over several ranks that fails on one of them alone.
 #pragma once
 
 #include "mpm/ranks/communicator.hpp"

@@ -31,7 +31,7 @@ struct NamedImpulse {
 
 /// Momentum balance: change = sum of the impulses + residual. Each term is found independently of the others.
 struct AuditReport {
-  Vec3 momentum = Vec3::Zero();  ///< of the particles now [N s]
+  Vec3 momentum = Vec3::Zero();  ///< momentum of the particles now [N s]
   Vec3 initial_momentum = Vec3::Zero();
   std::vector<NamedImpulse> impulses;
   double exchanged = 0.0;  ///< momentum exchanged: sum over steps and sources of |impulse| [N s]
@@ -39,7 +39,7 @@ struct AuditReport {
   double residual = 0.0;   ///< |change - sum of impulses| / max(exchanged, carried)
 };
 
-/// What limited the time step, and the steps taken.
+/// Limit of the time step, and the steps taken.
 struct StepReport {
   std::uint64_t steps = 0;  ///< since the start
   double dt_min = 0.0;      ///< [s] over the run so far
@@ -48,7 +48,7 @@ struct StepReport {
   double courant =
       0.0;  ///< largest part of a cell that a wave was seen to cross in a step; above 1 steps were too long
   std::uint64_t divided = 0;  ///< sync periods whose steps were made shorter on the way
-  std::string limited_by;     ///< what and where: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
+  std::string limited_by;     ///< cause and place: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
 };
 
 /// An explicit crack. Lists have an entry for each point of its chain.
@@ -64,20 +64,20 @@ struct CrackReport {
 struct CrackTipReport {
   std::string crack, end;                                ///< the crack's name; "start" or "end" of its chain
   Vec3 place = Vec3::Zero(), direction = Vec3::UnitX();  ///< world [m]; of growth straight on
-  std::string state, growth, material;           ///< whether J is known; why it grew or not; whose constants hold
+  std::string state, growth, material;           ///< state of J; reason why it grew or not; material of constants
   double j = 0.0, zone = 0.0;                    ///< at the tip; work of tractions behind it [J/m^2]
   double k_one = 0.0, k_two = 0.0;               ///< [Pa sqrt(m)]
-  double opening = 0.0, slip = 0.0;              ///< of the faces next to it [m]
+  double opening = 0.0, slip = 0.0;              ///< opening and slip of the faces next to it [m]
   double grown = 0.0, speed = 0.0, angle = 0.0;  ///< since the start [m]; of the last growth [m/s], [rad]
   int growths = 0;
   bool has_j = true;     ///< false: it was looked at, and J could not be found
   bool stopped = false;  ///< it grows no more, as `growth` says
 };
 
-/// How ranks have shared the particles.
+/// Sharing of the particles among ranks.
 struct SharingReport {
   std::uint64_t handed_over = 0;  ///< particles from rank to rank, since the start
-  std::uint64_t divisions = 0;    ///< how often the grid was divided
+  std::uint64_t divisions = 0;    ///< number of times that the grid was divided
   double imbalance = 1.0;         ///< particles of the fullest rank over the mean of all, when they last met
 };
 
@@ -93,7 +93,7 @@ struct SolverState {
   EnergyReport energy;
   AuditReport audit;
   std::uint64_t particles = 0;
-  std::vector<NamedNumber> numbers;  ///< of modules: "returned" (particles that were put back), "alpha", …
+  std::vector<NamedNumber> numbers;  ///< numbers of modules: "returned" (particles that were put back), "alpha", …
   double min_j = 1.0;                ///< smallest det F of any particle now
   double wall_seconds = 0.0;         ///< spent in stepping
 

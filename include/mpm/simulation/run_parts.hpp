@@ -31,7 +31,7 @@ class TransportedField;
 /// Objects that modules share with each other or with the run, each made when the first module asks for it.
 struct Services {
   std::unique_ptr<VolumeSurvey> volumes;
-  std::unique_ptr<SweepBudget> budget;  ///< where the scene has one
+  std::unique_ptr<SweepBudget> budget;  ///< budget of the scene; null without one
 };
 
 /// All parts but the lists of text outlive the modules.
@@ -42,8 +42,8 @@ struct RunParts {
   std::vector<ParticleSet>& sets;  ///< one for each body of the definition; not sorted yet
   const std::vector<Law>& laws;    ///< one for each set
   std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
-  NodeChoice* choice;              ///< of particles near cracks; null without cracks
-  Communicator* ranks;             ///< where the run is over several; else null, and `halo` too
+  NodeChoice* choice;              ///< choice of fields by particles near cracks; null without cracks
+  Communicator* ranks;             ///< communicator of a run over several ranks; else null, as `halo` is
   Halo* halo;
   int threads;
   Isa isa;

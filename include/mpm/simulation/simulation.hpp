@@ -42,9 +42,9 @@ class PhysicsError : public Error {
   using Error::Error;
 };
 
-/// How far a geostatic start is from rest.
+/// Distance of a geostatic start from rest.
 struct Settling {
-  std::uint64_t steps = 0;  ///< of settling so far
+  std::uint64_t steps = 0;  ///< steps of settling so far
   double unbalanced = 0.0;  ///< force over the weight, when last at rest; infinite before
   double wanted = 0.0;      ///< at which the soil has settled
 };
@@ -76,7 +76,8 @@ class Simulation {
   /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError; StoppedError when asked to stop
   /// Takes over the definition, whose particle data are freed as soon as they have been read.
   explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
-  /// Of a scene (scene/scene.hpp), which lies in a layer above: its build() is found where the scene is declared.
+  /// Makes the simulation of a scene (scene/scene.hpp), which lies in a layer above: its build() is found where the
+  /// scene is declared.
   /// @throws SceneError, and what the other constructor throws
   template <class AnyScene, class Built = decltype(build(std::declval<const AnyScene&>()))>
   explicit Simulation(const AnyScene& scene, SimulationOptions options = {})
@@ -89,7 +90,7 @@ class Simulation {
   int threads() const;
   /// Over several ranks, else null.
   Communicator* ranks() const;
-  /// Whether it holds on any rank.
+  /// True if it holds on any rank.
   bool on_any_rank(bool own) const;
   std::string isa() const;                    ///< instruction set of the kernels
   std::vector<std::string> warnings() const;  ///< one line each, found when the run was put together
@@ -130,7 +131,7 @@ class Simulation {
   const SweepBudget* budget() const;
   /// Ends the sweeps of these steps as they ended in another run, in place of the clock. Ignored without a budget.
   void repeat_cuts(const std::vector<CutStep>& steps);
-  /// What modules report, as in state().
+  /// Numbers that modules report, as in state().
   std::vector<NamedNumber> numbers() const;
   /// The action of the material on the body since the last call.
   ContactReport take_contact(int body);
@@ -156,7 +157,7 @@ class Simulation {
   /// The same of this rank's own particles, as they lie in memory; in one process, of all.
   void read_own_particles(const std::vector<std::string>& fields, const ParticleChoice& choice,
                           ParticleColumns& columns) const;
-  /// Whether one of the fields needs the particles' positions at the start ("ux", "x0", …).
+  /// True if one of the fields needs the particles' positions at the start ("ux", "x0", …).
   static bool needs_start(const std::vector<std::string>& fields);
   /// Stores the particles' present positions for those fields, unless they are stored already. This costs memory (24
   /// bytes for each particle) and time in sorting. @throws DefinitionError after time zero
@@ -180,7 +181,7 @@ class Simulation {
   void serialise(StateArchive& archive);
 
  private:
-  /// What a metric says now. `values`: memory to use.
+  /// Value of a metric now. `values`: memory to use.
   double statistic_of(const MetricDefinition& metric, std::vector<double>& values) const;
   /// Adds a value, at a sync point, to the metrics that are rates.
   void sample_metrics();
@@ -188,7 +189,7 @@ class Simulation {
   /// @throws DefinitionError
   void read_fields(const std::vector<std::string>& fields, std::vector<std::vector<double>>& columns) const;
   friend class GlobalQuantities;
-  friend class SimulationProbe;  // of tests: single steps, of any size
+  friend class SimulationProbe;  // part of tests: single steps, of any size
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,4 +1,4 @@
-// How many threads a run takes when it is not told. The result does not depend on them.
+// Number of threads that a run takes if it is not told. The result does not depend on them.
 #pragma once
 
 #include <bitset>

@@ -14,7 +14,7 @@ struct TransportWork {
   const char* quantity = "";  ///< its key
   std::string material;       ///< in which it spreads fastest; empty where it does not spread
   double diffusivity = 0.0;   ///< there [m^2/s]
-  double step = 0.0;          ///< of the mechanics [s]
+  double step = 0.0;          ///< step of the mechanics [s]
   double stages = 1.0;        ///< in it, of all its updates
   std::string cause;          ///< the key that asks for them, its value and what may be wrong with it
 };

@@ -1,4 +1,4 @@
-// Which blocks are at rest: watched over a time in two halves. In each half no particle may exceed the speed, and the
+// Watch for blocks at rest, over a time in two halves. In each half no particle may exceed the speed, and the
 // block's mean velocity over that half may not exceed a tenth of it; and the second half's may not be that of the first
 // grown. So what swings fast may do so a little, as material in which waves run out does; what creeps has a mean
 // velocity, what begins to slide one that grows, and a pendulum at the end of its way one in each half.
@@ -17,7 +17,7 @@
 
 namespace mpm {
 
-/// Of one owner block.
+/// State of one owner block.
 struct RestWatchEntry {
   int field = 0;
   std::uint64_t key = 0;
@@ -32,8 +32,8 @@ struct RestWatchEntry {
 
 class RestWatch {
  public:
-  static constexpr double kMean = 0.1;             ///< of the speed, that the mean velocity may reach
-  static constexpr double kSeen = 0.01;            ///< of the speed, from which on its growth counts
+  static constexpr double kMean = 0.1;             ///< part of the speed that the mean velocity may reach
+  static constexpr double kSeen = 0.01;            ///< part of the speed from which on its growth counts
   static constexpr std::uint32_t kLeastLooks = 4;  ///< in a half
 
   /// `speed` [m/s] and `time` [s], that of both halves.
@@ -43,7 +43,7 @@ class RestWatch {
   void follow(const Fields& fields, double now);
   /// Looks at all particles. Afterwards at_rest() tells of each owner.
   void look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads);
-  /// Of owners by number, through all fields: whether they have been at rest for the time, and are since.
+  /// True if an owner, by number through all fields, has been at rest for the time, and is since.
   bool at_rest(int owner) const { return entries_[owner].at_rest; }
   /// Takes all blocks to have been at rest for the time before.
   void trust_all();
@@ -62,7 +62,7 @@ class RestWatch {
   void look_at(RestWatchEntry& entry, int owner, const std::vector<ParticleSet>& sets, double now);
 
   double speed_, half_;
-  std::vector<RestWatchEntry> entries_, before_;  ///< of each owner, in their order: ascending by field and key
+  std::vector<RestWatchEntry> entries_, before_;  ///< entry of each owner, in their order: ascending by field and key
 };
 
 }  // namespace mpm

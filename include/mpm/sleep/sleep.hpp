@@ -39,7 +39,7 @@
 
 namespace mpm {
 
-/// What a run hands to Sleep; the references outlive it.
+/// Parts that a run hands to Sleep; the references outlive it.
 struct SleepParts {
   Fields& fields;
   std::vector<ParticleSet>& sets;
@@ -47,11 +47,11 @@ struct SleepParts {
   std::unique_ptr<BlockProbe> probe;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
-  bool implicit = false;  ///< whether steps are implicit
+  bool implicit = false;  ///< true if steps are implicit
   Halo* halo = nullptr;   ///< null for one process
 };
 
-/// How long what sleep does waits, so that it costs a small part of steps.
+/// Times that the work of sleep waits, so that it costs a small part of steps.
 struct SleepPace {
   std::uint32_t between_looks;  ///< steps
   std::uint32_t looks_to_wait;  ///< for a sort that others ask for, before one is asked for to fall asleep
@@ -108,9 +108,9 @@ class Sleep final : public Stage {
   void look(const StepContext& context);
   /// On any rank.
   bool none_asleep() const;
-  /// Whether a tool is so near to a block that it has to be awake, in steps of `dt` [s].
+  /// True if a tool is so near to a block that it has to be awake, in steps of `dt` [s].
   bool tool_near(const std::array<int, 3>& block, double dt) const;
-  /// Whether material of another velocity field is near to a block of one.
+  /// True if material of another velocity field is near to a block of one.
   bool other_near(int field, std::uint64_t key) const;
   void find_unrest(StepContext& context);
   void find_unrest(const Grid& grid, SleepBorder& border, double dt);
@@ -125,17 +125,17 @@ class Sleep final : public Stage {
   SleepingBlocks asleep_;
   RestWatch watch_;
   std::unique_ptr<SleepAcrossRanks> across_;       ///< null for one process
-  std::vector<SleepBorder> borders_;               ///< of each field
-  std::uint64_t generation_ = 0;                   ///< of the blocks that borders_ and watch_ were made for
+  std::vector<SleepBorder> borders_;               ///< border of each field
+  std::uint64_t generation_ = 0;                   ///< generation of the blocks that borders_ and watch_ were made for
   std::uint32_t steps_ = 0;                        ///< since the last look
   std::uint32_t looks_waited_ = 0;                 ///< by those who may fall asleep
   std::uint32_t steps_waited_ = 0;                 ///< by those who are to wake
   bool at_once_ = false;                           ///< one of them cannot wait
   bool begun_ = false;                             ///< the first step is done
   bool just_read_ = false;                         ///< a checkpoint has been read, and no step has followed
-  std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
+  std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< those who may fall asleep, without forces yet
   std::vector<BlockName> to_wake_;                 ///< ascending, each once
-  std::vector<SleepBorder::Unrest> unrest_;        ///< of the nodes of a border
+  std::vector<SleepBorder::Unrest> unrest_;        ///< unrest of the nodes of a border
   ChunkSums<Taken> sums_;
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]

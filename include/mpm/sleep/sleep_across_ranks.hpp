@@ -1,4 +1,4 @@
-// What ranks (ranks/communicator.hpp) tell each other of sleep, so that it is that of one process. A block sleeps on
+// Exchange of ranks (ranks/communicator.hpp) on sleep, so that it is that of one process. A block sleeps on
 // the rank that put it to sleep, wherever the grid is divided to later, and its particles go to their rank when they
 // have woken. Where material of several ranks comes to rest in one block, one after another, it sleeps in parts.
 //
@@ -44,7 +44,7 @@ class SleepAcrossRanks {
 
   /// Adds blocks that sleep on others and have material of another velocity field near them. Not collective.
   void add_met(std::vector<BlockName>& names) const;
-  /// Whether nothing sleeps on any rank. Not collective.
+  /// True if nothing sleeps on any rank. Not collective.
   bool none_asleep() const { return elsewhere_.empty() && asleep_.all().empty(); }
 
  private:
@@ -63,7 +63,7 @@ class SleepAcrossRanks {
   Fields& fields_;
   SleepingBlocks& asleep_;
   Names elsewhere_;                                ///< asleep on other ranks, in whole or in part
-  std::vector<std::vector<std::uint64_t>> known_;  ///< of each field, the blocks in use at the last meeting, ascending
+  std::vector<std::vector<std::uint64_t>> known_;  ///< for each field, the blocks in use at the last meeting, ascending
   bool knows_all_ = true;                          ///< in place of that: there are no means but what this rank has
 };
 

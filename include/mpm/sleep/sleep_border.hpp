@@ -22,24 +22,24 @@ class SleepBorder {
  public:
   struct Node {
     NodeRef ref;
-    double mass = 0.0;          ///< of what is asleep [kg]
+    double mass = 0.0;          ///< mass of what is asleep [kg]
     Vec3 force = Vec3::Zero();  ///< internal, of what is asleep [N]
     double rate = 0.0;          ///< by which a wave would cross a cell [1/s]
     std::uint32_t from = 0;     ///< a bit for each block around that is asleep and reaches the node
     bool at_wall = false;       ///< a wall holds it too, with a force that is not known here
-    Vec3 mean = Vec3::Zero();   ///< of the force without balance, over a time [N]
+    Vec3 mean = Vec3::Zero();   ///< mean of the force without balance, over a time [N]
   };
 
   explicit SleepBorder(const GridLayout& layout);
 
-  /// Of a velocity field, as particles are sorted now. `halo`: null for one process.
+  /// Finds the border of a velocity field, as particles are sorted now. `halo`: null for one process.
   void find(int field, const Grid& grid, const SleepingBlocks& asleep, const Halo* halo);
   const std::vector<Node>& nodes() const { return nodes_; }
   std::vector<Node>& nodes() { return nodes_; }
   /// Adds the names of the blocks asleep that reach a node.
   void add_names(const Node& node, const Grid& grid, std::vector<BlockName>& names) const;
   struct Unrest {
-    double speed = 0.0;  ///< of a wave that would bring the force, or of what comes in: the larger [m/s]
+    double speed = 0.0;  ///< larger speed of a wave that would bring the force and of what comes in [m/s]
     double lost = 0.0;   ///< mean force without balance over that of the block asleep and the node's weight
   };
   /// At a node, once the forces are gathered. `part`: of the mean, that this step makes anew.
@@ -48,7 +48,7 @@ class SleepBorder {
 
   /// The mean of the force without balance at a node, as ranks tell each other of it.
   struct Mean {
-    std::uint64_t key;  ///< of the block
+    std::uint64_t key;  ///< key of the block
     std::int32_t field, node;
     double force[3];  ///< [N]
   };
@@ -67,7 +67,7 @@ class SleepBorder {
   };
 
   std::uint64_t key_beside(const std::array<int, 3>& block, int side) const;
-  /// Which nodes of a block particles that are awake may give to, until they are sorted again.
+  /// Finds the nodes of a block that awake particles may give to, until they are sorted again.
   void find_reached(int block, const Grid& grid);
   void add_block(int block, const Grid& grid);
   void keep_means();
@@ -79,11 +79,11 @@ class SleepBorder {
   int sides_ = 0;                               ///< blocks around one, itself in the middle
   std::array<std::vector<Shared>, 27> shared_;  ///< with the block on each side
   std::vector<const SleepingBlock*> around_;    ///< on each side
-  std::vector<std::uint8_t> is_awake_;          ///< of each block in use, whether particles in it are awake
-  std::vector<std::uint8_t> reached_;           ///< of the nodes of a block
-  std::vector<Halo::Nodes> reached_by_others_;  ///< of each block in use, by particles of other ranks
+  std::vector<std::uint8_t> is_awake_;          ///< for each block in use, 1 if particles in it are awake
+  std::vector<std::uint8_t> reached_;           ///< marks of the nodes of a block
+  std::vector<Halo::Nodes> reached_by_others_;  ///< nodes of each block in use, by particles of other ranks
   std::vector<Node> of_block_, nodes_, before_;
-  std::vector<std::uint64_t> keys_, keys_before_;  ///< of the blocks of nodes_ and before_
+  std::vector<std::uint64_t> keys_, keys_before_;  ///< keys of the blocks of nodes_ and before_
 };
 
 }  // namespace mpm

@@ -1,4 +1,4 @@
-// What a scene says of the sleep of material at rest.
+// Definition of the sleep of material at rest in a scene.
 #pragma once
 
 namespace mpm {

@@ -52,12 +52,12 @@ inline void sort_names(std::vector<BlockName>& names) {
 struct SleepingBlock {
   BlockName name;
   double rate = 0.0;                                  ///< by which the fastest wave would cross a cell [1/s]
-  double mass = 0.0;                                  ///< of its particles [kg]
+  double mass = 0.0;                                  ///< mass of its particles [kg]
   BlockForces forces;                                 ///< on the nodes of its tile
-  std::vector<std::vector<std::uint32_t>> particles;  ///< of each set, their places
+  std::vector<std::vector<std::uint32_t>> particles;  ///< places of those of each set
 };
 
-/// What was taken from particles when they fell asleep.
+/// Motion that was taken from particles when they fell asleep.
 struct TakenMotion {
   Vec3 momentum = Vec3::Zero();  ///< [N s]
   double energy = 0.0;           ///< kinetic [J]
@@ -100,7 +100,7 @@ class SleepingBlocks {
     for (auto one = whole_.begin(); one != whole_.end();) one = keep(one->first) ? std::next(one) : whole_.erase(one);
   }
 
-  /// What the block gives to the grid, on whichever rank it sleeps, or null.
+  /// Returns what the block gives to the grid, on whichever rank it sleeps, or null.
   const SleepingBlock* find(const BlockName& name) const {
     if (!whole_.empty()) {
       const auto found = whole_.find(name);
@@ -113,7 +113,7 @@ class SleepingBlocks {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? nullptr : found->second.get();
   }
-  /// Whether find() gives null for any name.
+  /// True if find() gives null for any name.
   bool finds_none() const { return by_name_.empty() && whole_.empty(); }
   using ByName = std::unordered_map<BlockName, std::unique_ptr<SleepingBlock>, BlockName::Hash>;
   /// Those of this rank, in no order.
@@ -126,7 +126,7 @@ class SleepingBlocks {
   void serialise(StateArchive& archive);
 
  private:
-  /// Whose a particle asleep is, and its index in the block's list.
+  /// Owner of a particle asleep, and its index in the block's list.
   struct Owned {
     SleepingBlock* block = nullptr;
     std::uint32_t index = 0;
@@ -142,7 +142,7 @@ class SleepingBlocks {
                TakenMotion& taken);
   void wake_set(std::size_t s, SleepingBlock& block);
   void follow_moves(std::size_t s);
-  /// Of a set's particles; `block_of`: the key of the block that each sleeps in, or kAwake.
+  /// Takes the places of a set's particles; `block_of`: the key of the block that each sleeps in, or kAwake.
   void take_places(std::size_t s, std::vector<std::uint64_t> block_of, bool merging);
   /// The block of this name on this rank; one with nothing in it if there is none.
   SleepingBlock& block(const BlockName& name);
@@ -151,8 +151,8 @@ class SleepingBlocks {
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
   ByName by_name_, whole_;
-  std::vector<std::vector<Owned>> owned_;  ///< of each set, by place
-  std::vector<int> first_;                 ///< of each set, the place of the first one asleep
+  std::vector<std::vector<Owned>> owned_;  ///< owners in each set, by place
+  std::vector<int> first_;                 ///< for each set, the place of the first one asleep
   std::vector<std::uint32_t> free_;        ///< places that put_set() may exchange with
   double mass_ = 0.0, rate_ = 0.0;
 };

@@ -67,7 +67,7 @@ class HeldNodes {
   void reserve(std::size_t nodes) { held_.reserve(nodes); }
   /// Nodes have to be added in ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
-  /// Of all ranks, each of which knows some.
+  /// Shares the values among all ranks, each of which knows some.
   void share(Communicator& ranks) {
     held_ = gather_list(ranks, held_);
     put_in_order();

@@ -33,15 +33,15 @@ struct DampingDefinition {
   Function grid;      ///< alpha_g: v loses alpha_g v0 dt, v0 being the grid's velocity at the particle [1/s]
   Function particle;  ///< alpha_p: v loses alpha_p v dt [1/s]
   Function pic;       ///< 1 - beta: part of PIC in the update of a step, 0 to 1; the FLIP fraction is 1 without it
-  /// Whether grid damping is a force on the nodes, before walls and tools act; else it is in the update of particles.
+  /// True if grid damping is a force on the nodes, before walls and tools act; else it is in the update of particles.
   /// With FLIP both are the same to round-off where no node is held (method reference 6.3). A function of place is
   /// always in the update.
   bool in_force = true;
   std::optional<FeedbackDefinition> feedback;
 
-  /// Whether there is any.
+  /// True if there is any damping.
   bool any() const { return !grid.is_zero() || !particle.is_zero() || !pic.is_zero() || feedback; }
-  /// Whether damping acts in the update of particles, beside the FLIP fraction.
+  /// True if damping acts in the update of particles, beside the FLIP fraction.
   bool in_update() const {
     const bool steered = feedback && (feedback->of == FeedbackDefinition::Of::particle || !in_force);
     return !particle.is_zero() || pic.uses_place() || steered || (!grid.is_zero() && !in_force);

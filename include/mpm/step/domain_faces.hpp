@@ -22,24 +22,25 @@
 
 namespace mpm {
 
-/// What all faces of a scene have in common.
+/// Settings that all faces of a scene share.
 struct FaceSettings {
   GeometryKind geometry = GeometryKind::solid;
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;                 ///< thickness of a plane [m], area of a line [m^2]
-  const NodeChoice* choice = nullptr;  ///< where particles choose a field at every node
-  Halo* halo = nullptr;                ///< where other ranks give to the same nodes
+  const NodeChoice* choice = nullptr;  ///< choice of a field at every node; may be null
+  Halo* halo = nullptr;                ///< exchange with ranks that give to the same nodes; may be null
 };
 
 /// The nodes of the cell that a place is in, with shares that sum to 1.
 struct NodeShares {
   int count = 0;
-  std::array<int, 8> field{};  ///< of each
+  std::array<int, 8> field{};  ///< field of each
   std::array<NodeRef, 8> node{};
   std::array<double, 8> share{};
 };
 
-/// Of a place by grid axis [m], in field `field` with this grid. A count of 0: no node around it carries material.
+/// Shares of a place by grid axis [m], in field `field` with this grid. A count of 0: no node around it carries
+/// material.
 NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at, int field = 0);
 
 class DomainFaces {
@@ -50,7 +51,7 @@ class DomainFaces {
 
   /// The face of a particle as the step begins; its area is that of the whole ring about an axis [m^2].
   FaceParts parts(int set, int particle, DomainFace face) const;
-  /// Of a corner of that face, in the particle's velocity fields.
+  /// Shares of a corner of that face, in the particle's velocity fields.
   NodeShares shares(int set, int particle, const PlacedDomain::Vector& at) const;
   const GridLayout& layout() const { return fields_.front()->layout; }
 
@@ -63,10 +64,11 @@ class DomainFaces {
   const std::vector<ParticleSet>& sets_;
 };
 
-/// Where particles of a set are, by id from the set's first up to the last that is here; -1 for those on other ranks.
+/// Finds the places of a set's particles, by id from the set's first up to the last that is here; -1 for those on other
+/// ranks.
 void find_places(const ParticleSet& set, std::vector<int>& place_of);
 
-/// Of a set that is not sorted yet, the particles that no other lies beyond in their row along the face's axis, by
+/// Returns the particles of a set, not sorted yet, that no other lies beyond in their row along the face's axis, by
 /// place in the set; over several ranks, which have parts of it, by id from the set's first. Rows are those of the
 /// lattice that boxes of the set's size make on the grid. `ranks`: null for a process that is alone. Collective.
 std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face,

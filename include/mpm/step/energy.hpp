@@ -38,7 +38,7 @@ class EnergyReport {
       same->value += counted;
     }
   }
-  /// What is added from here on counts so many times: 0 on ranks that know what another one reports.
+  /// Sets how many times counts what is added from here on: 0 on ranks that know what another one reports.
   void weigh(double weight) { weight_ = weight; }
   /// Replaces the values, in the order of list(), by sums over ranks.
   void replace(const std::vector<double>& values) {
@@ -62,8 +62,8 @@ class EnergyReport {
   /// Energy stored in the material, and of free rigid bodies [J].
   double whole() const { return total() + sum(Kind::of_bodies); }
 
-  /// What the material stores and has dissipated, less the work done on it [J]. It does not change in a run whose
-  /// energy is all accounted for.
+  /// Energy that the material stores and has dissipated, less the work done on it [J]. It does not change in a run
+  /// whose energy is all accounted for.
   double balance() const { return sum(Kind::stored) + sum(Kind::dissipated) - sum(Kind::work); }
   /// Says that the run loses energy which no part of it counts, so that the balance has no meaning.
   void leave_open() { closed_ = false; }

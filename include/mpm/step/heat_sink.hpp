@@ -1,4 +1,4 @@
-// Where contact, between whatever surfaces, tells of its heat: what friction took at a place, and what touches there.
+// Receiver of the heat of contact between any surfaces: what friction took at a place, and what touches there.
 // A run without heat has none.
 #pragma once
 

@@ -41,7 +41,7 @@ struct NamedNumber {
   double value = 0.0;
 };
 
-/// Why a particle is outside the grid, and what may help.
+/// Reason why a particle is outside the grid, and what may help.
 struct OutsideReason {
   std::string what, remedy;
 };
@@ -93,7 +93,7 @@ class Module {
 
   /// Called before particles are sorted: the last chance to move them or to choose their velocity fields.
   virtual void before_sort() {}
-  /// Whether particles have to be sorted after this step.
+  /// True if particles have to be sorted after this step.
   virtual bool needs_sort() const { return false; }
   /// Called when a particle is outside the grid. Returns whether the module has put all such particles back, so that
   /// the sort can be tried again. Over several ranks it is called on all when one has such a particle, and returns the

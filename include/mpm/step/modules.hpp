@@ -68,7 +68,7 @@ class Modules {
     int field;
   };
   void add_entry(Entry entry);
-  /// Whether what a module reports counts here.
+  /// True if what a module reports counts here.
   bool counts(const Module& module) const { return !(leaves_shared_ && module.same_on_all_ranks()); }
   void put_in_order();
 

@@ -29,7 +29,7 @@ namespace mpm {
 /// Energy taken since the start [J].
 struct SurfaceLoss {
   double friction = 0.0;
-  double held = 0.0;  ///< of motion that is held up
+  double held = 0.0;  ///< energy of motion that is held up
 
   SurfaceLoss& operator+=(const SurfaceLoss& other) {
     friction += other.friction;
@@ -43,12 +43,12 @@ class NodeLoss {
  public:
   struct Act {
     double mass;                   ///< [kg]
-    Vec3 normal;                   ///< of the surface
+    Vec3 normal;                   ///< normal of the surface
     Vec3 weight;                   ///< times the step [N s]
     Vec3 impulse;                  ///< on the material [N s]
     Vec3 start;                    ///< gathered at the start of the step
     Vec3 left;                     ///< that the impulse leaves on the grid
-    bool held = false;             ///< whether the node was held in the step before
+    bool held = false;             ///< true if the node was held in the step before
     double strain_at_start = 0.5;  ///< StepContext::strain_at_start
   };
   /// The impulse of the step. Returns what it takes by the start of the step.

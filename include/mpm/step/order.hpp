@@ -11,8 +11,8 @@
 
 namespace mpm {
 
-/// Where a stage may act, in the order of a run and of its steps. The functions of Stage describe the state at each
-/// hook.
+/// Place where a stage may act, in the order of a run and of its steps. The functions of Stage describe the state at
+/// each hook.
 enum class Hook {
   run_begun,
   step_begun,
@@ -54,7 +54,7 @@ enum class Rank {
 
 /// True if a stage of this rank is contact, or has it, after which others have to hold their nodes again.
 constexpr bool is_contact(Rank rank) { return rank >= Rank::implicit && rank <= Rank::frictional_wall; }
-/// Whether a stage acts at this rank only because contact may have moved its nodes.
+/// True if a stage acts at this rank only because contact may have moved its nodes.
 constexpr bool mends_contact(Rank rank) { return rank >= Rank::axis_again && rank <= Rank::condition_again; }
 
 /// The ranks of a stage at a hook: one, or two if it acts twice.

@@ -19,7 +19,7 @@ class PatchSorter {
 
   /// Notes where the blocks' particles begin, after a sort.
   void look_at(const std::vector<ParticleSet>& sets, const NodeChoice& choice);
-  /// Whether the sets have been sorted since look_at().
+  /// True if the sets have been sorted since look_at().
   bool outdated(const NodeChoice& choice) const { return generation_ != choice.sorted(); }
   /// The particles of a set in a block of NodeChoice::blocks(): from the first to one before the next block's first.
   std::uint32_t begin(std::size_t set, std::size_t block) const { return begin_[set][block]; }

@@ -16,7 +16,7 @@
 namespace mpm {
 
 struct PointWeights {
-  static constexpr int kMost = 125;  ///< of cubic splines in a solid
+  static constexpr int kMost = 125;  ///< number for cubic splines in a solid
 
   int count = 0;  ///< nodes with a weight; 0: no node around the point carries mass, or it is far out of the domain
   std::array<NodeRef, kMost> node;

@@ -16,7 +16,7 @@ namespace mpm {
 
 enum class UpdateScheme { usf, usl, usavg, implicit };
 
-/// Whether particles keep their places while they move, since strain is updated from there afterwards.
+/// True if particles keep their places while they move, since strain is updated from there afterwards.
 constexpr bool strains_after_motion(UpdateScheme update) {
   return update == UpdateScheme::usl || update == UpdateScheme::usavg;
 }

@@ -26,7 +26,7 @@ struct ParticleRef {
   int index = 0;
 };
 
-/// How many particles a kernel takes at once, and what they must have in common: all are in one block, and their
+/// Number of particles that a kernel takes at once, and what they must have in common: all are in one block, and their
 /// nearest nodes are one column along the last grid axis, or one node.
 struct Grouping {
   enum class By { column, node };
@@ -55,7 +55,7 @@ class Sorter {
     PaddedArray<std::uint32_t> order;  ///< place before the sort
     PaddedArray<std::uint8_t> node;    ///< in its block, in sorted order
     PermuteScratch values;
-    ParticleOrder in_memory;  ///< where no order is given
+    ParticleOrder in_memory;  ///< order if none is given
     const ParticleOrder* before = nullptr;
     std::size_t room = 0;  ///< that arrays get which are made anew [particles]
   };
@@ -80,12 +80,12 @@ class Sorter {
   int threads_;
   Grouping grouping_;
   NodeChoice* choice_;
-  unsigned node_bits_ = 0;  ///< of a code
+  unsigned node_bits_ = 0;  ///< bits of a code
   std::vector<Scratch> scratch_;
   std::vector<Part> parts_;
-  std::vector<std::uint64_t> owner_keys_;       ///< of all fields, counted on from field to field
-  std::vector<std::uint64_t> field_keys_;       ///< of one
-  std::vector<std::uint32_t> field_particles_;  ///< of its owners
+  std::vector<std::uint64_t> owner_keys_;       ///< keys of all fields, counted on from field to field
+  std::vector<std::uint64_t> field_keys_;       ///< keys of one field
+  std::vector<std::uint32_t> field_particles_;  ///< particles of each of its owners
 };
 
 }  // namespace mpm

@@ -1,4 +1,4 @@
-// How a particle takes over the grid's motion, and the names of these transfers in a scene.
+// Transfers by which a particle takes over the grid's motion, and their names in a scene.
 //
 // flip: velocity gains the grid's acceleration; a fraction below 1 mixes in PIC, which takes the grid's velocity
 // itself, or XPIC, in all steps or in one of several. xpic, fmpm: PIC whose smoothing is undone to order m, from the

@@ -29,7 +29,7 @@ struct NodalVolumes {
   std::vector<NodalField> slope;
 };
 
-/// Which data are computed besides volume and gradient.
+/// Data to be computed besides volume and gradient.
 struct SurveyWants {
   bool start_volume = false, position = false, displacement = false, slope = false;
 };

@@ -9,7 +9,7 @@
 
 namespace mpm::study {
 
-/// Whether a point [m] belongs to the body.
+/// True if a point [m] belongs to the body.
 using Inside = std::function<bool(const Vec3& place)>;
 
 /// Equal cells of size `cell` from `min` to `max` [m]; the method and the discretisation's time step.

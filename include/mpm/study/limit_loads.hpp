@@ -23,7 +23,7 @@ double active_coefficient(double friction);
 /// log spiral, the wall's force at a third of its height, Terzaghi (1943), Theoretical Soil Mechanics.
 /// @param friction in (0, 45 degrees]
 Bounds rough_wall_coefficient(double friction);
-/// How the force on a blade grows with its travel over its depth, as a part of the force at the start: the soil that
+/// Growth of the force on a blade with its travel over its depth, as a part of the force at the start: the soil that
 /// the blade has swept, depth times travel, lies as a heap before it on what it pushes. Smooth: 2 tan(45 - phi/2),
 /// exact to the first order: the force is tan(45 + phi/2) times the weight above the plane from the edge at
 /// 45 - phi/2, to which the swept soil is added, and that plane is the one of the least force. Rough: the moment of a

@@ -16,19 +16,19 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Row {
   std::string suite, method;                                 ///< names
-  std::string shape, update, transfer, precision, geometry;  ///< what the method is
+  std::string shape, update, transfer, precision, geometry;  ///< description of the method
   int cells = 0;
   int particles_per_cell = 0;
   double cfl = 0.0;
   std::uint64_t steps = 0, particles = 0;
   double error = kUnknown;
   std::string error_measure;
-  double cpu_seconds = kUnknown;    ///< of the steps, without the body force of manufactured problems [s]
+  double cpu_seconds = kUnknown;    ///< time of the steps, without the body force of manufactured problems [s]
   double relative_cost = kUnknown;  ///< processor time of a step over that of uGIMP/USF on the same grid
   double cost = kUnknown;           ///< relative_cost times particles times steps: in particle-steps of uGIMP/USF
   double work = kUnknown;           ///< counted: particles times steps times counted_work()
   std::string status;               ///< "ok"; "failed", the physics ended the run; "refused" by the simulation
-  std::string message;              ///< why it failed or was refused
+  std::string message;              ///< reason why it failed or was refused
 };
 
 void write_header(std::ostream& out);

@@ -22,12 +22,12 @@ namespace mpm::study {
 double processor_time();
 
 struct CostSettings {
-  int turns = 5;        ///< of reference and method, after one to warm up
+  int turns = 5;        ///< turns of reference and method, after one to warm up
   double slice = 3e-3;  ///< processor time of each's part of a turn, at least [s]
 };
 
 struct Cost {
-  double seconds_per_step = kUnknown;  ///< of the processor [s]
+  double seconds_per_step = kUnknown;  ///< time of the processor [s]
   double relative = kUnknown;          ///< over the reference's
 };
 
@@ -45,7 +45,7 @@ class Runner {
   CostSettings settings_;
   std::string place_;                ///< suite and grid that reference_ and costs_ belong to
   std::unique_ptr<Twin> reference_;  ///< uGIMP/USF/FLIP
-  double reference_seconds_ = 0.0;   ///< of one of its steps [s]
+  double reference_seconds_ = 0.0;   ///< time of one of its steps [s]
   std::map<std::string, Cost> costs_;
 };
 

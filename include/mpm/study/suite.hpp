@@ -22,7 +22,7 @@ class StudyError : public Error {
   using Error::Error;
 };
 
-/// What a suite is computed with.
+/// Discretisation that a suite is computed with.
 struct Discretisation {
   int cells = 0;                    ///< across the length that the suite names
   double cfl = 0.5;                 ///< fraction of a cell that the fastest wave may travel in a step
@@ -46,16 +46,16 @@ using Motion = std::function<Vec3(double time, const Vec3& start)>;
 struct Suite {
   std::string name;
   std::string title;
-  std::string problem;       ///< what is computed
-  std::string exact;         ///< what is exact, and its source
-  std::string measure_text;  ///< what the error is, and relative to what
+  std::string problem;       ///< statement of what is computed
+  std::string exact;         ///< statement of what is exact, and its source
+  std::string measure_text;  ///< definition of the error, and its reference
   GeometryKind geometry = GeometryKind::plane_strain;
   bool costly = false;  ///< the short study runs the main methods alone
   std::function<SimulationDefinition(const MethodDefinition&, const Discretisation&)> definition;
   std::function<std::unique_ptr<ErrorMeasure>()> measure;
   Motion motion;                      ///< exact; none where only a quantity of the motion is known
-  std::vector<Discretisation> quick;  ///< what the short study runs
-  std::vector<Discretisation> full;   ///< what the long one runs
+  std::vector<Discretisation> quick;  ///< runs of the short study
+  std::vector<Discretisation> full;   ///< runs of the long one
 };
 
 /// All of them, in the order of the document.

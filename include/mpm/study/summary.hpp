@@ -1,4 +1,4 @@
-// Which method is cheapest for a given error: each method's own front, read between its runs
+// Choice of the cheapest method for a given error: each method's own front, read between its runs
 // (choice/front.hpp).
 #pragma once
 
@@ -16,9 +16,9 @@ struct Cheapest {
   double target = 0.0;                  ///< error
   std::string by;                       ///< "work" or "cost", a column of the runs
   std::string method, second;           ///< the cheapest and the next, empty when there is none
-  double value = kUnknown;              ///< of the cheapest
-  double second_value = kUnknown;       ///< of the next
-  double reference = kUnknown;          ///< of uGIMP/USF/FLIP
+  double value = kUnknown;              ///< value of the cheapest
+  double second_value = kUnknown;       ///< value of the next
+  double reference = kUnknown;          ///< value of uGIMP/USF/FLIP
   std::vector<std::string> reached_by;  ///< all methods that reach it, the cheapest first
 };
 

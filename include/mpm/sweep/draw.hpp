@@ -18,7 +18,7 @@ struct Distribution {
   enum class Kind { uniform, log_uniform, normal } kind = Kind::uniform;
   /// Bounds of a draw. A normal draw beyond them is drawn again.
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
-  double mean = 0.0, deviation = 1.0;  ///< of a normal distribution
+  double mean = 0.0, deviation = 1.0;  ///< mean and deviation of a normal distribution
 };
 
 /// A number in [0, 1). `attempt` counts numbers of one draw.

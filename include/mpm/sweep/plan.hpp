@@ -30,13 +30,13 @@ struct Plan {
   std::vector<Setting> set;                  ///< the same in all runs
   std::vector<Axis> axes;                    ///< every combination is a run; the last axis changes fastest
   std::vector<std::string> parameters;       ///< paths of what differs between runs, in the plan's order
-  std::vector<std::string> record;           ///< what runs record beside summary and log: bag, csv, vtk
+  std::vector<std::string> record;           ///< outputs that runs record beside summary and log: bag, csv, vtk
   std::map<std::string, std::string> where;  ///< "file:line" by path
   std::string text;                          ///< as read
 
   /// Number of runs, which are counted from 1.
   int runs() const;
-  /// What run `number` sets beside `set`, in the order of `parameters`.
+  /// Settings that run `number` makes beside `set`, in the order of `parameters`.
   std::vector<Setting> settings(int number) const;
 };
 

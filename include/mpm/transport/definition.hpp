@@ -1,5 +1,5 @@
-// What a scene says of transport: which quantities particles carry beside their motion, the materials' constants, and
-// what holds, feeds and drains the quantities. All obey one equation (GIMP notes, chapter 6),
+// Definition of transport in a scene: which quantities particles carry beside their motion, the materials' constants,
+// and what holds, feeds and drains the quantities. All obey one equation (GIMP notes, chapter 6),
 //
 //   C dT/dt = -div q + s,   q = -K grad T,
 //
@@ -57,11 +57,11 @@ struct TransportMaterial {
   /// Linear strain that brings no stress, of a change by one [1/K], [1].
   double expansion = 0.0;
 
-  // Of heat.
+  // Constants of heat.
   double heat_fraction = 0.9;  ///< part of the plastic work that becomes heat (Taylor and Quinney)
-  // Of water in pores.
+  // Constants of water in pores.
   Symmetric3<double> biot{};   ///< part of the pressure that the skeleton feels, 1 at most
-  double fluid_density = 0.0;  ///< of the water that gravity drives [kg/m^3]
+  double fluid_density = 0.0;  ///< density of the water that gravity drives [kg/m^3]
 };
 
 /// Values that nodes in a region have.
@@ -72,7 +72,7 @@ struct ValueDefinition {
   std::string where;  ///< "file:line: key.path", for errors; may be empty
 };
 
-/// What flows into a body through a face of some of its particles' domains.
+/// Flux into a body through a face of some of its particles' domains.
 struct FluxDefinition {
   enum class Kind {
     given,       ///< `value` a unit of area
@@ -95,17 +95,17 @@ struct SourceDefinition {
   Function value;  ///< [content/(m^3 s)]; of a ramp the quantity itself, whose changes all particles follow
 };
 
-/// How a change of the nodes becomes one of particles: GIMP notes (6.22), by the content that a node can take, or
-/// (6.24), by the volume at the node and the particle's own capacity.
+/// Way in which a change of the nodes becomes one of particles: GIMP notes (6.22), by the content that a node can take,
+/// or (6.24), by the volume at the node and the particle's own capacity.
 enum class RateMethod { nodal_capacity, particle_capacity };
 
 /// A rigid body that exchanges heat with what it touches.
 struct ToolHeatDefinition {
   std::string body;
-  double conductance = 0.0;    ///< of the contact [W/(m^2 K)]
+  double conductance = 0.0;    ///< conductance of the contact [W/(m^2 K)]
   Function temperature;        ///< [K]; with a capacity the one at the start
-  double capacity = 0.0;       ///< of the whole body [J/K]; 0: the temperature is given
-  double friction_part = 1.0;  ///< of the heat of friction that goes to the material
+  double capacity = 0.0;       ///< capacity of the whole body [J/K]; 0: the temperature is given
+  double friction_part = 1.0;  ///< part of the heat of friction that goes to the material
 };
 /// Two bodies of different velocity fields that conduct where they touch; a body twice: the faces of its cracks.
 struct PairHeatDefinition {
@@ -118,7 +118,7 @@ inline constexpr double kStefanBoltzmann = 5.670374419e-8;  ///< [W/(m^2 K^4)]
 struct QuantityDefinition {
   Transported quantity = Transported::temperature;
   RateMethod method = RateMethod::nodal_capacity;
-  int order = 2;  ///< of nodal_capacity: 1 is (6.22) as it stands, 2 adds once what is lost on the way
+  int order = 2;  ///< order of nodal_capacity: 1 is (6.22) as it stands, 2 adds once what is lost on the way
   std::vector<TransportMaterial> materials;               ///< in the order of SimulationDefinition::materials
   std::vector<std::pair<std::string, Function>> initial;  ///< by body; an empty name: those that no other names
   double reference = 0.0;                                 ///< at which nothing is strained by it
@@ -126,7 +126,7 @@ struct QuantityDefinition {
   std::vector<FluxDefinition> fluxes;
   std::vector<SourceDefinition> sources;
 
-  // Of heat.
+  // Settings of heat.
   bool compression_heat = true;  ///< a change of volume heats what expands with heat
   std::vector<ToolHeatDefinition> tools;
   std::vector<PairHeatDefinition> pairs;
@@ -143,7 +143,7 @@ double surface_conductance(const FluxDefinition& flux, double most);
 /// Longest update with such a surface, which is read once in it: it must not overshoot [s].
 double longest_update(double cell, double least_capacity, double conductance);
 
-/// Of a body at a place at the start. @throws FunctionError
+/// Initial value of a body at a place at the start. @throws FunctionError
 double initial_value(const QuantityDefinition& quantity, const std::string& body, const Vec3& place);
 
 struct TransportDefinition {

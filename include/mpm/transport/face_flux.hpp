@@ -41,7 +41,7 @@ class FaceFlux final : public NodalSource {
   std::vector<ContentAccount> accounts_;
   std::vector<int> place_of_;
   Halo* halo_;
-  std::vector<NodalField> own_;  ///< of each field, where there is a halo [content/s]
+  std::vector<NodalField> own_;  ///< flux of each field, where there is a halo [content/s]
 };
 
 }  // namespace mpm

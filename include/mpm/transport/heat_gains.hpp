@@ -61,12 +61,12 @@ class LawTemperature final : public LocalGain {
   bool acts_on(int set) const override { return index_[set] >= 0; }
   void take(int set, int first, int last, const double* value, double* gain) override;
   void written(int set, int first, int last, const double* value) override;
-  /// Of a particle, as the law has it [K].
+  /// Temperature of a particle, as the law has it [K].
   double value(int set, int p) const { return sets_[set].history[index_[set]][p] + reference_[set]; }
 
  private:
   std::vector<ParticleSet>& sets_;
-  std::vector<int> index_;         ///< of the temperature in history; negative: none
+  std::vector<int> index_;         ///< index of the temperature in history; negative: none
   std::vector<double> reference_;  ///< [K]
 };
 

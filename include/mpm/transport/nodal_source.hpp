@@ -1,4 +1,4 @@
-// What feeds or drains a transported quantity at nodes: flux through faces, contact with tools and other bodies,
+// Sources that feed or drain a transported quantity at nodes: flux through faces, contact with tools and other bodies,
 // friction. Each books what it gave under its own name.
 #pragma once
 
@@ -37,7 +37,7 @@ class NodalSource {
   virtual void accounts(std::vector<ContentAccount>& list) const = 0;
   /// Largest dQ/dT by area, of what depends on the quantity at the node, up to this value of it; 0: none.
   virtual double conductance(double /*most*/) const { return 0.0; }
-  /// Whether an update must not wait.
+  /// True if an update must not wait.
   virtual bool pending() const { return false; }
   virtual void serialise(StateArchive& archive) = 0;
 };

@@ -43,7 +43,7 @@ class PoreWater {
   void add_force(StepContext& context);
   /// Work of the pressure on the skeleton since the start [J]: to be called once in a step, after its force was added.
   double work() const { return work_; }
-  /// Whether the pressure acts alike along all axes; of another its work is not counted.
+  /// True if the pressure acts alike along all axes; of another its work is not counted.
   bool isotropic() const { return isotropic_; }
   /// Radial momentum by the hoop direction about an axis in this step [N s].
   double radial() const { return radial_; }
@@ -54,7 +54,7 @@ class PoreWater {
  private:
   void fit_scratch();
   double stiffness(int set) const;
-  /// What pushes along a grid axis, by mass: row `axis` of alpha times p J / rho0.
+  /// Finds what pushes along a grid axis, by mass: row `axis` of alpha times p J / rho0.
   void push_rows(int set, int axis);
   /// Replaces what pushes by the mean of the nodes around a particle, the adjoint of an averaged strain; and so the
   /// pressure that is seen.
@@ -67,7 +67,7 @@ class PoreWater {
   std::unique_ptr<ScalarTransfer> transfer_;
   bool isotropic_ = true, averaged_;
   NodalField force_, part_;
-  std::vector<std::array<PaddedArray<double>, 3>> push_;  ///< of each set, pushed_ of them in use
+  std::vector<std::array<PaddedArray<double>, 3>> push_;  ///< push of each set, pushed_ of them in use
   int pushed_ = 0;
   ScalarTransfer::Given pushes_, by_axis_;
   ScalarTransfer::Taken means_;

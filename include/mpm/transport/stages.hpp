@@ -50,7 +50,7 @@ class Stages {
     return (static_cast<double>(j) * j + j - 2.0) / (2.0 * j * (j + 1.0));
   }
 
-  int nodes_;  ///< of a block
+  int nodes_;  ///< nodes of a block
   NodalField flow_, first_, now_, before_, values_;
 };
 

@@ -68,9 +68,9 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
     double share;
   };
   struct Touch {
-    int tool, field, first, count;  ///< of shares_; tool negative: none with heat
+    int tool, field, first, count;  ///< range of shares_; tool negative: none with heat
     double area, friction, dt;
-    bool by_tool;  ///< which over several ranks all of them know of
+    bool by_tool;  ///< true if, over several ranks, all of them know of it
   };
   struct Meeting {
     int field, other_field;
@@ -81,7 +81,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   int tool_of(const RigidBody* body) const;
   /// A block of -1: no material is there any more.
   NodeRef find(int field, std::uint64_t node) const;
-  /// Whether a touch, or a meeting at this node, counts to sums here.
+  /// True if a touch, or a meeting at this node, counts to sums here.
   bool counts(const Touch& touch) const;
   bool counts(int field, NodeRef node) const { return fields_[field]->counts(node.block); }
   /// Adds up conductance times time of all that touches at each node, and at each tool that has a capacity [J/K].
@@ -98,13 +98,13 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   std::vector<double> effusivities_;
   std::vector<ToolHeat> tools_;
   std::vector<double> pairs_;
-  const Communicator* ranks_;  ///< where the run is over several
+  const Communicator* ranks_;  ///< communicator of a run over several ranks; else null
   std::vector<Share> shares_;
   std::vector<Touch> touches_;
   std::vector<Meeting> meetings_;
-  std::vector<NodalField> loads_;   ///< of each field, at the nodes that are touched in this update [J/K]
-  std::vector<double> tool_loads_;  ///< of each tool [J/K]
-  double kept_ = 0.0;               ///< of friction where no material is any more: for the next place [J]
+  std::vector<NodalField> loads_;   ///< load of each field, at the nodes that are touched in this update [J/K]
+  std::vector<double> tool_loads_;  ///< load of each tool [J/K]
+  double kept_ = 0.0;               ///< heat of friction where no material is any more: for the next place [J]
   double rubbed_ = 0.0, given_ = 0.0;
   ContentAccount friction_, conducted_;
 };

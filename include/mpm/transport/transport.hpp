@@ -71,7 +71,7 @@ class Transport final : public Stage {
   std::int64_t sync_, sync_end_;
   std::vector<double> drained_speeds_;
   std::vector<std::unique_ptr<TransportedField>> fields_;
-  std::vector<double> waited_;  ///< of each quantity, since its last update [s]
+  std::vector<double> waited_;  ///< time of each quantity since its last update [s]
   std::unique_ptr<PoreWater> water_;
   SurfaceHeat* surface_ = nullptr;
   std::vector<double> sums_;

@@ -64,12 +64,12 @@ struct TransportParts {
   GeometryKind geometry;
   ShapeKind shape;
   int threads;
-  std::vector<int> materials;            ///< of each set, its index among the definition's
-  std::vector<double> densities;         ///< of each set, initial [kg/m^3]
+  std::vector<int> materials;            ///< for each set, its index among the definition's
+  std::vector<double> densities;         ///< initial density of each set [kg/m^3]
   Vec3 gravity;                          ///< [m/s^2]
   bool cracked = false;                  ///< particles near cracks choose a field at every node
-  Communicator* ranks = nullptr;         ///< where the run is over several
-  std::function<bool()> interrupt = {};  ///< whether the run is asked to stop; may be empty
+  Communicator* ranks = nullptr;         ///< communicator of a run over several ranks; else null
+  std::function<bool()> interrupt = {};  ///< true if the run is asked to stop; may be empty
 };
 
 class TransportedField {
@@ -91,7 +91,7 @@ class TransportedField {
   /// Moves the quantity over `dt`, from `start` [s], after collect(). `reported`: particles see the new value in any
   /// case, else only if something in the run needs it. @throws TransportError; StoppedError between two stages
   void update(double start, double dt, bool reported);
-  /// Whether a source must not wait for its update.
+  /// True if a source must not wait for its update.
   bool pending() const;
 
   /// The longest update that one stage can take [s], (6.32); infinite where nothing conducts.
@@ -103,19 +103,19 @@ class TransportedField {
   void share_limits(Communicator& ranks);
   const QuantityDefinition& definition() const { return definition_; }
   const TransportMaterial& material(int set) const { return definition_.materials[parts_.materials[set]]; }
-  /// What the particles of a set carry, in its order.
+  /// Values that the particles of a set carry, in its order.
   PaddedArray<double>& carried(int set) { return parts_.sets[set].brought[place_[set] + 1].values; }
   const PaddedArray<double>& carried(int set) const { return parts_.sets[set].brought[place_[set] + 1].values; }
-  /// What laws, properties and reports see: the nodes' value at the particles (6.26), without the scatter of what is
-  /// carried within a cell; and what has been gained since.
+  /// Values that laws, properties and reports see: the nodes' value at the particles (6.26), without the scatter of
+  /// what is carried within a cell; and what has been gained since.
   PaddedArray<double>& values(int set) { return parts_.sets[set].brought[place_[set]].values; }
   const PaddedArray<double>& values(int set) const { return parts_.sets[set].brought[place_[set]].values; }
 
-  /// What came in since the start by each source, condition and local gain.
+  /// Content that came in since the start by each source, condition and local gain.
   std::vector<ContentAccount> accounts() const;
   /// Sum over the particles here of what they hold, by its size [content]: heat above the absolute zero.
   double content() const;
-  /// What the particles have gained since the start [content].
+  /// Content that the particles have gained since the start [content].
   double gained() const { return gained_; }
   void serialise(StateArchive& archive);
 
@@ -153,11 +153,11 @@ class TransportedField {
   /// Makes fluxes of them, by mass, to be given.
   void turn_gradients();
   void drive_by_gravity();
-  /// What is in `volume_`.
+  /// Adds what is in `volume_`.
   void add_to_sources(int field);
   void add_volume_sources(double start, double dt);
   static double value_of(const SourceDefinition& source, const std::string& body, double time, const Vec3& place);
-  /// Of the field's own nodes, which begin with block `first` of `value`.
+  /// Holds the field's own nodes, which begin with block `first` of `value`.
   void hold(int field, NodalField& value, double time, int first = 0) const;
   void conduct(int field, double start, double dt);
   void conduct_in_all(double start, double dt);
@@ -173,22 +173,22 @@ class TransportedField {
   QuantityDefinition definition_;
   TransportParts parts_;
   std::unique_ptr<ScalarTransfer> transfer_;
-  std::vector<std::size_t> place_;  ///< of each set, in ParticleSet::brought: of what is seen, before what is carried
-  bool reads_nodes_ = false;        ///< whether anything but a report needs what is seen
+  std::vector<std::size_t> place_;  ///< for each set, place in ParticleSet::brought of what is seen, before the carried
+  bool reads_nodes_ = false;        ///< true if anything but a report needs what is seen
   bool flows_ = false, conducts_ = false, anisotropic_ = false, gravity_driven_ = false;
-  std::optional<double> one_capacity_;  ///< of all material, over its mass
+  std::optional<double> one_capacity_;  ///< capacity of all material, over its mass
   double stable_step_ = 0.0, longest_update_ = 0.0;
   double least_of_volume_ = std::numeric_limits<double>::infinity();  ///< capacity of a volume
-  double least_capacity_ = std::numeric_limits<double>::infinity();   ///< of a particle [content/quantity]
-  /// Of values that the scene gives.
+  double least_capacity_ = std::numeric_limits<double>::infinity();   ///< capacity of a particle [content/quantity]
+  /// Lowest and highest of the values that the scene gives.
   double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -std::numeric_limits<double>::infinity();
   std::vector<std::unique_ptr<LocalGain>> gains_;
   std::vector<std::unique_ptr<NodalSource>> sources_;
-  std::vector<NodalQuantity> nodes_;  ///< of each velocity field
+  std::vector<NodalQuantity> nodes_;  ///< nodes of each velocity field
   std::vector<NodalField> rooms_;     ///< V_i of each velocity field, for (6.24)
   NodalField volume_;                 ///< scratch
   Stages stages_;
-  /// Where particles near cracks join fields: the nodes of all, field by field, for the stages, and of each for a
+  /// Nodes for particles near cracks that join fields: those of all, field by field, for the stages, and of each for a
   /// stage.
   struct Joined {
     std::vector<int> first;  ///< block of each field, and one more for the end
@@ -197,8 +197,8 @@ class TransportedField {
   };
   std::optional<Joined> joined_;
   std::vector<Held> held_;
-  std::uint64_t generation_ = 0;                             ///< of the blocks that held_ is of
-  std::vector<std::array<PaddedArray<double>, 3>> scratch_;  ///< of each set, vectors_ of them in use
+  std::uint64_t generation_ = 0;                             ///< generation of the blocks that held_ is of
+  std::vector<std::array<PaddedArray<double>, 3>> scratch_;  ///< scratch of each set, vectors_ of them in use
   int vectors_ = 0;
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken taken_;

@@ -33,7 +33,7 @@ struct BodyCommand {
   std::optional<std::int64_t> stamp;  ///< the same in simulated time [ns]; none: as soon as possible
   bool late = false;                  ///< the stamp was zero, or past when it came
   std::string sender;                 ///< node that published it, for an order that is not that of arrival
-  std::uint64_t order = 0;            ///< of arrival
+  std::uint64_t order = 0;            ///< order of arrival
 };
 
 /// A command as the simulation gets it; world axes.

@@ -54,7 +54,7 @@ class CommandBridge {
   void listen(ros::NodeHandle& node, const char* topic, bool fixed);
   void hear(const tf2_msgs::TFMessage& message, const std::string& sender, bool fixed);
 
-  const std::string prefix_;  // of body topics, resolved
+  const std::string prefix_;  // prefix of body topics, resolved
   NodeHealth& health_;
   tf2::BufferCore frames_;
   ros::Time heard_;  // by the clock, when a transform came last

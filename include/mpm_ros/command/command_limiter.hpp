@@ -35,7 +35,7 @@ class CommandLimiter {
   /// True when the command's body has limits: it is its goal from now on, in place of the one before. False: nothing
   /// was done. @throws mpm::RigidError for a velocity that apply() would refuse within its limits too
   bool take(const AppliedCommand& command, const mpm::Simulation& simulation);
-  /// What the bodies that are under way to a goal do in the sync period to come.
+  /// Commands of the bodies that are under way to a goal, in the sync period to come.
   std::vector<AppliedCommand> next(const mpm::Simulation& simulation);
   /// The body is on its way no longer.
   void drop(int body);
@@ -43,7 +43,7 @@ class CommandLimiter {
   void take_over(const CommandLimiter& other);
 
   void serialise(mpm::StateArchive& archive);
-  /// Of bodies under way.
+  /// Goals of bodies under way.
   std::vector<AppliedCommand> goals() const;
 
  private:

@@ -52,9 +52,9 @@ class CommandQueue {
   /// From hold() on commands wait outside; release() lets them in. A step of the lockstep takes what came before it.
   void hold();
   void release();
-  /// Of what was looked up for this sync point, in the middle of a step.
+  /// Pushes what was looked up for this sync point, in the middle of a step.
   bool push_past_hold(BodyCommand command);
-  /// What takes effect at the sync point `now` [ns], which is later than the one before.
+  /// Commands that take effect at the sync point `now` [ns], which is later than the one before.
   std::vector<DueCommand> take(std::int64_t now);
   /// Forgets everything but the counts, for a run that begins again.
   void clear();
@@ -84,7 +84,7 @@ class CommandQueue {
  private:
   /// The stream of poses of one body.
   struct PoseStream {
-    std::int64_t last_stamp = -1;  ///< of the last pose that set out (its sync point when it had none) [ns]
+    std::int64_t last_stamp = -1;  ///< stamp of the last pose that set out (its sync point when it had none) [ns]
     std::int64_t period = 0;       ///< [ns]
     std::int64_t arrival = 0;      ///< [ns] of the pose under way
   };
@@ -109,8 +109,8 @@ class CommandQueue {
   std::deque<BodyCommand> waiting_;
   std::deque<BodyCommand> outside_;  ///< came while on hold
   bool on_hold_ = false;
-  std::map<int, std::size_t> ahead_;    ///< of both, those whose stamp is to come, by body
-  std::map<Stream, std::size_t> next_;  ///< of both, the others
+  std::map<int, std::size_t> ahead_;    ///< number of both whose stamp is to come, by body
+  std::map<Stream, std::size_t> next_;  ///< number of the others of both, by stream
   std::map<int, PoseStream> streams_;
   std::int64_t passed_ = -1;  ///< last sync point taken [ns]
   std::uint64_t arrivals_ = 0;

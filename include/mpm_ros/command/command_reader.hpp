@@ -37,9 +37,9 @@ class CommandReader {
 
   /// The body follows a tf frame: commands from elsewhere are refused, with the reason.
   void set_frame(int body, const std::string& frame) { followed_.at(body) = frame; }
-  /// Where that frame is, as a message on cmd_pose; not `by_stamp`: as one without a stamp. Any thread.
+  /// Reads the place of that frame, as a message on cmd_pose; not `by_stamp`: as one without a stamp. Any thread.
   void follow(int body, const geometry_msgs::PoseStamped& message, bool by_stamp = true);
-  /// What comes on topics is applied as it comes, whatever its stamp, which is recorded. Before any message is taken.
+  /// Applies what comes on topics as it comes, whatever its stamp, which is recorded. Before any message is taken.
   void ignore_stamps() { use_stamps_ = false; }
   /// The command that was stamped latest since the run began, of those whose stamp was taken.
   struct Newest {
@@ -79,11 +79,11 @@ class CommandReader {
   void read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
                  BodyCommand& command, std::string& problem) const;
   void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;
-  /// Why a simulated time [ns] cannot be meant, or empty.
+  /// Reason why a simulated time [ns] cannot be meant, or empty.
   std::string too_far_ahead(std::int64_t stamp) const;
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
   void count_missing(int body, const char* leaf, const std::string& sender, const std_msgs::Header& header);
-  /// Why the body takes no commands, or empty.
+  /// Reason why the body takes no commands, or empty.
   std::string refusal_of(int body) const;
   /// Pose of a frame in the world, or the body whose frame it is.
   mpm::Pose find_frame(const std::string& frame, const ros::Time& stamp, int& body, std::string& problem) const;
@@ -97,7 +97,7 @@ class CommandReader {
   std::vector<std::string> followed_;  // frame of each body, or empty
   std::mutex taking_;                  // a message, from its stamp to the queue
   bool use_stamps_ = true;
-  mutable std::mutex mutex_;  // of stamps_ and newest_
+  mutable std::mutex mutex_;  // mutex of stamps_ and newest_
   Stamps stamps_;
   mutable Newest newest_;
   mutable std::mutex received_mutex_;

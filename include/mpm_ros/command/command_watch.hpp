@@ -14,7 +14,7 @@ namespace mpm_ros {
 
 struct Silence {
   int body = 0;
-  bool wrench = false;  ///< of wrenches; else of motions
+  bool wrench = false;  ///< true for wrenches; else for motions
 };
 
 class CommandWatch {

@@ -34,10 +34,10 @@ class FrameFollower {
 
   /// Looks frames up. `next`: stamp of the sync point after the present one.
   void look(const ros::Time& next);
-  /// How far the newest transform of a frame is stamped ahead of `next` [s], and the frame; 0 s: of none, or with
+  /// Time by which the newest transform of a frame is stamped ahead of `next` [s], and the frame; 0 s: of none, or with
   /// `latest`.
   std::pair<double, std::string> farthest_ahead(const ros::Time& next) const;
-  /// Where the frame of a body is at present; none where that is not known.
+  /// Pose of the frame of a body at present; none where that is not known.
   std::optional<mpm::Pose> latest_pose(int body) const;
   /// For a run that begins again.
   void clear();

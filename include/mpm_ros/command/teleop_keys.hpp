@@ -1,4 +1,4 @@
-// What the keys of a terminal tell a rigid body: a velocity for as long as a key is held.
+// Commands of the keys of a terminal to a rigid body: a velocity for as long as a key is held.
 //
 // A terminal tells of keys that are pressed and repeated, not of those that are let go: a key counts as let go when it
 // has not come again for a while. That while is long before the keyboard begins to repeat and short after it. Keyboards
@@ -34,7 +34,7 @@ class TeleopKeys {
   /// The keys, for people.
   static std::string help();
 
-  /// How long a key counts that the keyboard repeats [s].
+  /// Time that a key counts that the keyboard repeats [s].
   static constexpr double kRepeated = 0.15;
 
  private:

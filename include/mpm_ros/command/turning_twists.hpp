@@ -27,7 +27,7 @@ class TurningTwists {
  private:
   struct Held {
     mpm::Twist twist;       ///< body axes
-    mpm::Quat orientation;  ///< of the body when it was applied last
+    mpm::Quat orientation;  ///< orientation of the body when it was applied last
   };
   std::map<int, Held> held_;
 };

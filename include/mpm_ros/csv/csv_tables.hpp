@@ -107,9 +107,9 @@ struct CommandRow {
   double time = 0.0;  ///< [s] since the start, when it took effect
   std::string body;
   std::string kind = "velocity";  ///< or "pose", "wrench"
-  mpm::Twist twist;               ///< of a velocity command
-  mpm::Wrench wrench;             ///< of a wrench command
-  mpm::Pose pose;                 ///< of a pose command
+  mpm::Twist twist;               ///< twist of a velocity command
+  mpm::Wrench wrench;             ///< wrench of a wrench command
+  mpm::Pose pose;                 ///< pose of a pose command
   double arrival = 0.0;           ///< [s] of a pose command
 };
 

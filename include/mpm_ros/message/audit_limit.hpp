@@ -1,4 +1,4 @@
-// How well the momentum audit must close, for the checks of a bag and for /diagnostics.
+// Limit within which the momentum audit must close, for the checks of a bag and for /diagnostics.
 #pragma once
 
 #include "mpm/particles/particle_scalar.hpp"

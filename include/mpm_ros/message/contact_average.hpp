@@ -9,7 +9,7 @@
 
 namespace mpm_ros {
 
-/// What touched over one interval: every rigid body, and every pair of deformable bodies that has a law of contact.
+/// Contacts over one interval: every rigid body, and every pair of deformable bodies that has a law of contact.
 struct Contacts {
   std::vector<mpm::ContactReport> bodies;
   std::vector<mpm::PairReport> pairs;
@@ -21,7 +21,7 @@ class ContactAverage {
  public:
   /// One report a body and a pair, always in the same order; interval after interval.
   void add(const Contacts& contacts);
-  /// Whether nothing was added since the last take().
+  /// True if nothing was added since the last take().
   bool empty() const { return empty_; }
   /// Each number over all intervals, as its line in quantities.cpp says. Starts anew.
   Contacts take();

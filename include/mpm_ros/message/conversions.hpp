@@ -40,9 +40,9 @@ mpm::Pose from_message(const geometry_msgs::Pose& message);
 /// Largest difference from 1 of the norm of a quaternion that is still taken for a rotation.
 constexpr double kQuaternionTolerance = 1e-3;
 
-/// Why a twist cannot be used, or empty: "linear.x is nan".
+/// Reason why a twist cannot be used, or empty: "linear.x is nan".
 std::string problem_of(const geometry_msgs::Twist& message);
-/// Why a pose cannot be used, or empty: not finite, or a quaternion whose norm is not 1 within the tolerance.
+/// Reason why a pose cannot be used, or empty: not finite, or a quaternion whose norm is not 1 within the tolerance.
 std::string problem_of(const geometry_msgs::Pose& message);
 /// A pose for which problem_of() is empty, its quaternion normalised.
 mpm::Pose checked_pose(const geometry_msgs::Pose& message);

@@ -1,4 +1,4 @@
-// Where a run's messages go: publishers, a bag.
+// Receivers of a run's messages: publishers, a bag.
 #pragma once
 
 #include <geometry_msgs/WrenchStamped.h>
@@ -21,9 +21,9 @@ namespace mpm_ros {
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
-  /// Whether a message on this topic (a name of topics.hpp) is worth making.
+  /// True if a message on this topic (a name of topics.hpp) is worth making.
   virtual bool wants(const std::string& topic) const = 0;
-  /// Whether it takes a cloud of the particles of its own rank, instead of one of all on the first. Then there is one
+  /// True if it takes a cloud of the particles of its own rank, instead of one of all on the first. Then there is one
   /// on each rank, and they want clouds together.
   virtual bool takes_own_particles() const { return false; }
 

@@ -1,4 +1,4 @@
-// What went wrong or should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
+// Faults, and what else should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
 //
 // solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
 // is nearly crushed, particles left the grid and were put back, the wall clock is not kept up with, time.budget is too
@@ -21,44 +21,44 @@
 
 namespace mpm_ros {
 
-/// How the run stands, for the status `solver`.
+/// State of the run, for the status `solver`.
 struct SolverHealth {
   std::string phase = "starting";  ///< "running", "paused", "waiting for step", "ended", "failed: …"
   bool failed = false;
-  std::string record_failure;  ///< why the run goes on without its record; empty: it has one, or none was asked for
+  std::string record_failure;  ///< reason for going on without a record; empty: there is one, or none was asked for
   double time = 0.0;           ///< [s] simulated
   double real_time_factor = 0.0;
   double asked_factor = 0.0;                           ///< that pacing tries to keep; 0: none
   std::uint64_t overruns = 0;                          ///< sync periods that took longer than their wall time
   std::uint64_t steps = 0;                             ///< since the start
   double step = 0.0;                                   ///< the last one [s]
-  std::string step_limited_by;                         ///< what and where
+  std::string step_limited_by;                         ///< cause and place
   double courant = 0.0;                                ///< largest part of a cell that a wave crossed in a step
   double momentum_error = 0.0;                         ///< residual of the audit over the momentum exchanged
-  mpm::Precision precision = mpm::Precision::float64;  ///< of the particles: how well the audit must close
+  mpm::Precision precision = mpm::Precision::float64;  ///< precision of the particles: how well the audit must close
   double min_j = 1.0;                                  ///< smallest det F
   std::uint64_t particles = 0;
-  std::uint64_t returned = 0;  ///< of them, left the grid since the start and were put back
+  std::uint64_t returned = 0;  ///< particles that left the grid since the start and were put back
   std::string short_budget;    ///< that time.budget is too little, with the numbers; empty: it is not, or there is none
-  double cut_error = 0.0;      ///< of the force on tools where it ended the sweeps of the last sync period; 0: nowhere
+  double cut_error = 0.0;      ///< error of the tools' force where it ended sweeps of the last sync period; 0: nowhere
 };
 
 /// Commands that were taken, for the status `commands`.
 struct CommandHealth {
   std::uint64_t unstamped = 0;           ///< on stamped topics, with stamp zero: applied at the next sync point
   std::uint64_t past = 0;                ///< with a stamp that was past: the same
-  std::uint64_t waiting = 0;             ///< whose time is to come
-  std::uint64_t most_waiting = 0;        ///< of a body; more with stamps to come are refused
+  std::uint64_t waiting = 0;             ///< commands whose time is to come
+  std::uint64_t most_waiting = 0;        ///< most of these of a body; more with stamps to come are refused
   double horizon = 0.0;                  ///< [s] ahead of the simulation; stamps beyond are refused
   std::uint64_t dropped = 0;             ///< that more came than could be kept: without effect
   std::uint64_t missing = 0;             ///< that did not come, by the gaps in header.seq
   std::uint64_t transforms_dropped = 0;  ///< messages of tf
 };
 
-/// How a body is kept within its limits.
+/// State of a body that is kept within its limits.
 struct LimitHealth {
   std::uint64_t limited = 0;  ///< commands that were not followed as fast as they asked
-  double behind = 0.0;        ///< of a pose whose time has come [m]
+  double behind = 0.0;        ///< distance to a pose whose time has come [m]
   double behind_angle = 0.0;  ///< [rad]
 };
 
@@ -101,9 +101,9 @@ class NodeHealth {
 
   /// Below this part of its volume a particle is about to be crushed: a run fails at zero.
   static constexpr double kCrushed = 0.1;
-  /// Of the pace that was asked for; less is behind.
+  /// Part of the pace that was asked for; less is behind.
   static constexpr double kPaceKept = 0.95;
-  /// How long a refusal warns.
+  /// Time for which a refusal warns.
   static constexpr std::chrono::seconds kFresh{10};
 
  private:

@@ -11,14 +11,14 @@
 
 namespace mpm_ros {
 
-/// Which particles and which of their fields are written.
+/// Choice of the particles and of their fields that are written.
 struct ParticleSelection {
   std::vector<std::string> fields;       ///< names that mpm::Simulation::particle_field() knows, beside x, y, z, id
-  mpm::ParticleChoice choice;            ///< which particles
+  mpm::ParticleChoice choice;            ///< choice of particles
   mpm::Vec3 origin = mpm::Vec3::Zero();  ///< from which places ("x", "x0", …) are written [m]
 };
 
-/// Why a selection cannot be used, naming the nearest field or the range; empty when it can.
+/// Reason why a selection cannot be used, naming the nearest field or the range; empty when it can.
 std::string problem_of(const ParticleSelection& selection);
 
 /// Fills the cloud: x, y, z (float32), id (uint32), then the fields (float32), in the order of the columns, which hold
@@ -46,7 +46,7 @@ class ParticleCloud {
     double origin;
   };
   std::vector<Place> places_;
-  std::vector<std::string> names_;  ///< of the columns
+  std::vector<std::string> names_;  ///< names of the columns
   mpm::ParticleColumns columns_;
   sensor_msgs::PointCloud2 cloud_;
 };

@@ -32,7 +32,7 @@ class ParticleColours {
 
   std::string field_;
   bool begun_ = false;
-  double low_ = 0.0, high_ = 0.0;  // of the range [unit of the field]
+  double low_ = 0.0, high_ = 0.0;  // ends of the range [unit of the field]
   std::vector<float> values_;
   sensor_msgs::PointCloud2 coloured_;
 };

@@ -1,4 +1,4 @@
-// How far a long work is, with the time left: a bar that is drawn over itself on a terminal, elsewhere (a log, a pipe)
+// Progress of a long work, with the time left: a bar that is drawn over itself on a terminal, elsewhere (a log, a pipe)
 // a line for each tenth.
 #pragma once
 

@@ -18,11 +18,11 @@ using ContactQuantity = Quantity<mpm::ContactReport, ContactForce>;
 using PairQuantity = Quantity<mpm::PairReport, ContactPair>;
 using StateQuantity = Quantity<mpm::SolverState, SolverState>;
 
-/// Of a rigid body's contact with the material; the first is the mean force.
+/// Quantities of a rigid body's contact with the material; the first is the mean force.
 const std::vector<ContactQuantity>& contact_quantities();
-/// Of the contact between two deformable bodies; the first is the mean force on the second.
+/// Quantities of the contact between two deformable bodies; the first is the mean force on the second.
 const std::vector<PairQuantity>& pair_quantities();
-/// Of the solver; impulses have names of their own and stand beside these.
+/// Quantities of the solver; impulses have names of their own and stand beside these.
 const std::vector<StateQuantity>& state_quantities();
 
 /// Name among SolverState::values: what the material stores and has dissipated, less the work done on it [J]

@@ -24,11 +24,11 @@ namespace mpm_ros {
 /// One number, or a vector on world axes.
 using Value = std::variant<double, mpm::Vec3>;
 
-/// How the value over an interval comes from those over parts of it.
+/// Rule by which the value over an interval comes from those over parts of it.
 enum class Over {
   mean,   ///< mean over time
   place,  ///< mean by the normal impulse; not a number while nothing presses
-  step,   ///< of the step with the largest force
+  step,   ///< value of the step with the largest force
   sum,
   start,  ///< counted since the start of the run: the last one
   now,    ///< as the interval ended: the last one
@@ -105,7 +105,7 @@ class Quantity {
       message_field = message.path;
     }
   }
-  /// Of axisymmetric scenes alone, with components r and z.
+  /// Makes it a quantity of axisymmetric scenes alone, with components r and z.
   Quantity ring() && {
     axisymmetric = true;
     return std::move(*this);

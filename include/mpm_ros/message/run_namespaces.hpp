@@ -1,4 +1,4 @@
-// Which namespaces have a run: the topic run_info says so, of a simulator as of a bag that is played.
+// Namespaces that have a run: the topic run_info says so, of a simulator as of a bag that is played.
 #pragma once
 
 #include <string>

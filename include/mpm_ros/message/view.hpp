@@ -1,4 +1,4 @@
-// Where RViz should look from: made to fit a run, whatever the size of its scene.
+// Place that RViz should look from: made to fit a run, whatever the size of its scene.
 #pragma once
 
 #include <sensor_msgs/PointCloud2.h>
@@ -9,26 +9,26 @@
 
 namespace mpm_ros {
 
-/// Of RViz's view controller "Orbit", and of its displays.
+/// View of RViz's view controller "Orbit", and of its displays.
 struct View {
   bool planar = false;                  ///< seen from the front: the eye towards -y, x to the right
   mpm::Vec3 focus = mpm::Vec3::Zero();  ///< point in the middle of the picture [m]
-  double distance = 1.0;                ///< of the eye from it [m]
-  double yaw = 0.0;                     ///< of the eye about z from x [rad]
-  double pitch = 0.0;                   ///< of the eye above the horizon [rad]
+  double distance = 1.0;                ///< distance of the eye from it [m]
+  double yaw = 0.0;                     ///< angle of the eye about z from x [rad]
+  double pitch = 0.0;                   ///< angle of the eye above the horizon [rad]
   double floor = 0.0;                   ///< height of the lowest particle [m]
   double particle_size = 0.01;          ///< [m]
-  std::string frame;                    ///< of the particles; empty: that of the configuration
+  std::string frame;                    ///< frame of the particles; empty: that of the configuration
   std::string field;                    ///< that colours the particles; empty: none is there
   std::string coloured;  ///< topic of the cloud with colours (rgb); empty: RViz colours the particles' own
   std::string bar;       ///< topic of the colour bar's markers; empty: there is none
 
-  /// Of the sphere that fills the picture [m].
+  /// Radius of the sphere that fills the picture [m].
   double radius() const;
-  /// Of the picture, as unit vectors.
+  /// Directions of the picture, as unit vectors.
   mpm::Vec3 right() const;
   mpm::Vec3 up() const;
-  /// Of the reference grid: a round number [m].
+  /// Cell of the reference grid: a round number [m].
   double grid_cell() const;
 };
 

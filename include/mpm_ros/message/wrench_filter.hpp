@@ -34,7 +34,7 @@ class WrenchFilter {
   static constexpr double kHalfTurn = 3.14159265358979323846;
   static constexpr double kRoot2 = 1.41421356237309504880;
 
-  /// What a vector's filter remembers (direct form II, transposed).
+  /// Memory of a vector's filter (direct form II, transposed).
   struct Memory {
     mpm::Vec3 first = mpm::Vec3::Zero(), second = mpm::Vec3::Zero();
   };
@@ -45,8 +45,8 @@ class WrenchFilter {
     return result;
   }
 
-  double in_ = 0.0;                 ///< of the present sample and of the one before the last; of the last twice that
-  double out1_ = 0.0, out2_ = 0.0;  ///< of the last result and of the one before it
+  double in_ = 0.0;                 ///< weight of the present sample and the last but one; the last has twice that
+  double out1_ = 0.0, out2_ = 0.0;  ///< weights of the last result and of the one before it
   Memory force_, torque_;
 };
 

@@ -33,7 +33,7 @@
 
 namespace mpm_ros {
 
-/// What the commands to a run remember from sync point to sync point; checkpoints hold it.
+/// Memory of the commands to a run from sync point to sync point; checkpoints hold it.
 struct CommandMemory {
   CommandQueue queue;
   CommandWatch watch;
@@ -89,7 +89,7 @@ class BodyCommands {
   std::uint64_t dropped_transforms() const { return replays() ? 0 : bridge_->dropped_transforms(); }
   /// Those that did not come, by the numbers of their senders.
   std::uint64_t missing() const { return replays() ? 0 : bridge_->reader().missing(); }
-  /// Where the tf frame of a body is at present; none where it follows none, or tf does not know.
+  /// Pose of a body's tf frame at present; none where it follows none, or tf does not know.
   std::optional<mpm::Pose> frame_pose(int body) const {
     return replays() ? std::nullopt : bridge_->follower().latest_pose(body);
   }

@@ -42,7 +42,7 @@ class ExitWatchdog {
   std::atomic<int> exit_code_{0};
   std::atomic<bool> may_end_{true};
   std::atomic<bool> ends_{false};
-  std::mutex mutex_;  ///< of close_
+  std::mutex mutex_;  ///< mutex of close_
   std::function<int()> close_;
 };
 

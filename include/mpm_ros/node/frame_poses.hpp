@@ -1,4 +1,4 @@
-// Where rigid bodies begin that follow a tf frame and have no pose in their scene: where the frame is, for which the
+// First poses of rigid bodies that follow a tf frame and have no pose in their scene: where the frame is, for which the
 // node waits; in a run that goes on from a checkpoint, or repeats recorded commands, where the recorded run began.
 #pragma once
 
@@ -38,8 +38,8 @@ class FramePoses {
   void put(std::size_t start, const mpm::Scene& scene, int body, const mpm::Pose& pose);
 
   std::vector<FrameStart> starts_;
-  std::vector<int> bodies_;       ///< of the scene, of each start
-  std::vector<std::string> set_;  ///< of each start
+  std::vector<int> bodies_;       ///< body of the scene, for each start
+  std::vector<std::string> set_;  ///< setting of each start's pose; empty without one
 };
 
 template <typename Look>

@@ -9,7 +9,7 @@
 
 namespace mpm_ros {
 
-/// What the maps make of a scene.
+/// Result of the maps for a scene.
 struct HeightMaps {
   std::vector<std::string> set;                           ///< overrides of the scene, after those that it had
   std::vector<std::pair<std::string, std::string>> from;  ///< bodies, and the topics as resolved

@@ -14,7 +14,7 @@ namespace mpm_ros {
 
 class Mailbox {
  public:
-  /// Whose turn it is when several wait; at_once: first, and work that takes long ends for it.
+  /// Turn of a piece of work when several wait; at_once: first, and work that takes long ends for it.
   enum class Turn { last, first, at_once };
   /// Hands over `work` and waits until it is done. False, with the work not done, once closed, or where the solver's
   /// thread has been busy for kBusyPatience. Not from the thread that calls run_until().
@@ -28,7 +28,7 @@ class Mailbox {
   /// The solver's thread begins, or ends, work that takes nobody knows how long: callers do not wait for its end.
   void set_busy(bool busy);
   static constexpr std::chrono::milliseconds kBusyPatience{1000};
-  /// Whether some work waits that others end for. Any thread; true from the moment in which run_until() would find it.
+  /// True if some work waits that others end for. Any thread; true from the moment in which run_until() would find it.
   bool urgent() const { return urgent_ > 0; }
 
  private:
@@ -42,7 +42,7 @@ class Mailbox {
   std::deque<Letter*> letters_;
   bool closed_ = false;
   std::optional<std::chrono::steady_clock::time_point> busy_since_;
-  std::atomic<int> urgent_{0};  // of letters_, those of Turn::at_once
+  std::atomic<int> urgent_{0};  // number of letters_ of Turn::at_once
 };
 
 }  // namespace mpm_ros

@@ -9,7 +9,7 @@
 
 namespace mpm_ros {
 
-/// Who publishes, or offers, what; as the master's getSystemState tells it.
+/// Nodes that publish and offer topics and services, as the master's getSystemState tells it.
 class Neighbours {
  public:
   /// `state`: publishers, subscribers and services, each a list of [name, [nodes]]. What is not of that form is
@@ -27,8 +27,8 @@ class Neighbours {
   XmlRpc::XmlRpcValue state_;
 };
 
-/// Why a node of that name should not start: another one, which is `alive` (asked of a service), offers one of its
-/// services. Empty where none does.
+/// Reason why a node of that name should not start: another one, which is `alive` (asked of a service), offers one of
+/// its services. Empty where none does.
 std::string taken_service(const Neighbours& neighbours, const std::string& self,
                           const std::vector<std::string>& services,
                           const std::function<bool(const std::string&)>& alive);

@@ -18,20 +18,20 @@ enum class Pacing {
   lockstep    ///< only when the service `step` is called
 };
 
-/// What happens to a commanded body that has not heard a command for command_timeout.
+/// Action for a commanded body that has not heard a command for command_timeout.
 enum class OnTimeout {
   hold,  ///< it goes on by its last command
   stop,  ///< it stands still
   error  ///< the run ends
 };
 
-/// When what has a stamp takes effect.
+/// Time at which what has a stamp takes effect.
 enum class StampUse {
   stamp,  ///< by its stamp
   latest  ///< as it comes, whatever its stamp
 };
 
-/// Where the stamps of a run go on after a reset.
+/// Time at which the stamps of a run go on after a reset.
 enum class ResetTime {
   resume,  ///< after all stamps before: time never runs backwards
   zero     ///< at zero again, /clock too
@@ -55,8 +55,8 @@ struct NodeParameters {
   std::string commands;                     ///< bag whose commands are replayed in place of live ones
   double command_timeout = 0.0;             ///< [s] simulated; 0: never
   OnTimeout on_timeout = OnTimeout::hold;
-  StampUse tf_time = StampUse::stamp;       ///< of tf frames that bodies follow
-  StampUse command_time = StampUse::stamp;  ///< of messages on command topics
+  StampUse tf_time = StampUse::stamp;       ///< use for tf frames that bodies follow
+  StampUse command_time = StampUse::stamp;  ///< use for messages on command topics
   std::string world_frame = "world";
   bool publish_clock = true;                                ///< with use_sim_time
   double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point
@@ -68,12 +68,12 @@ struct NodeParameters {
   std::optional<mpm::Box> particle_region;                  ///< unset: as the scene says [m]
   double wrench_cutoff = 0.0;  ///< [Hz] of the filtered wrenches; 0: they are not published
   double wrench_rate = 0.0;    ///< [1/s] simulated, of forces, bodies, transforms, state; 0: every sync point
-  double force_scale = 0.0;    ///< of contact arrows [m/N]; 0: by the largest force met
+  double force_scale = 0.0;    ///< scale of contact arrows [m/N]; 0: by the largest force met
   bool state_hash = false;     ///< in every solver state
   bool keep_alive = false;     ///< serve on after the run's end; unset: in lockstep only
   bool start_paused = false;
 
-  std::string text;  ///< what was given, as YAML
+  std::string text;  ///< parameters given, as YAML
 };
 
 /// All parameters below a private node handle.

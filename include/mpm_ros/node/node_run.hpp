@@ -1,4 +1,4 @@
-// How the node's parameters say that a run of its scene is made.
+// Making of a run of the node's scene from its parameters.
 #pragma once
 
 #include <string>

@@ -17,14 +17,14 @@ class Pacer {
 
   /// Begins again from `now`: at the start, after a pause.
   void restart(Clock::time_point now);
-  /// When the sync period that is computed at `now` is due. A deadline that has passed is an overrun. A delay is caught
-  /// up with evenly: two sync points are kCatchUp of a period apart at least. One of more than kLargestDebt is given
-  /// up.
+  /// Time at which the sync period that is computed at `now` is due. A deadline that has passed is an overrun. A delay
+  /// is caught up with evenly: two sync points are kCatchUp of a period apart at least. One of more than kLargestDebt
+  /// is given up.
   Clock::time_point next(Clock::time_point now);
-  /// How much of the wall time of the sync period that is about to be computed has gone at `now`.
+  /// Part of the wall time of the sync period that is about to be computed that has gone at `now`.
   Clock::duration late(Clock::time_point now) const;
   std::uint64_t overruns() const { return overruns_; }
-  /// How often a delay was given up.
+  /// Number of times that a delay was given up.
   std::uint64_t given_up() const { return given_up_; }
   /// The delay that was given up last.
   Clock::duration last_delay() const { return last_delay_; }
@@ -35,14 +35,14 @@ class Pacer {
  private:
   /// The one with that number since start_.
   Clock::time_point deadline(std::int64_t number) const;
-  /// When the sync period that began at begun_ may end at the soonest.
+  /// Time at which the sync period that began at begun_ may end at the soonest.
   Clock::time_point soonest() const;
 
   const double factor_;
   double period_;            // [ns] of the wall's clock
   Clock::time_point start_;  // deadlines are counted from here, so that no rounding adds up
-  Clock::time_point begun_;  // when the period that is computed now began
-  std::int64_t count_ = 0;   // of deadlines since start_
+  Clock::time_point begun_;  // start of the period that is computed now
+  std::int64_t count_ = 0;   // number of deadlines since start_
   std::uint64_t overruns_ = 0, given_up_ = 0;
   Clock::duration last_delay_{};
 };

@@ -1,4 +1,4 @@
-// Where private parameters come from, so that none of an earlier run holds in silence. `_pacing:=lockstep` on a command
+// Sources of private parameters, so that none of an earlier run holds in silence. `_pacing:=lockstep` on a command
 // line is written to the parameter server by roscpp, where it would stay for every later node of the same name: the
 // names are noted before, and deleted as soon as the node has read them, which also holds for a node that is killed
 // afterwards.
@@ -16,10 +16,10 @@ class ParameterSources {
   /// The command line as main() gets it, before ros::init() takes its part away.
   ParameterSources(int argc, const char* const* argv);
 
-  /// Where each of `values` comes from, in one line. `node`: name of the node, "/simulator". Empty when there are none.
+  /// Source of each of `values`, in one line. `node`: name of the node, "/simulator". Empty when there are none.
   std::string text(const ParameterValues& values, const std::string& node) const;
 
-  /// Whether some of `values` may be left from an earlier run: they were neither on the command line nor set by who
+  /// True if some of `values` may be left from an earlier run: they were neither on the command line nor set by who
   /// started this node under a name, as roslaunch does.
   bool doubtful(const ParameterValues& values) const;
 

@@ -62,7 +62,7 @@ class SimulatorNode {
   /// A stop was asked for.
   static bool ends();
   Stamps first_stamps() const;
-  /// What a run is made from: the scene, and what a reset has set in it.
+  /// Subject that a run is made from: the scene, and what a reset has set in it.
   struct Subject {
     mpm::Scene scene;
     std::vector<std::string> set;
@@ -87,7 +87,7 @@ class SimulatorNode {
   void tell_budget() const;
   /// With nobody who waits: by a run's first second, how long it will take.
   void tell_pace();
-  /// When a delay has been given up: that the run cannot keep its pace, and what would help.
+  /// Tells, after a delay has been given up, that the run cannot keep its pace, and what would help.
   void tell_overload();
   /// Its first messages, and the pace from now on.
   void begin_run();
@@ -115,13 +115,13 @@ class SimulatorNode {
   bool on_reset_with(Reset::Request& request, Reset::Response& response);
   bool on_step(Step::Request& request, Step::Response& response);
   void pause(bool paused, std_srvs::SetBool::Response& response);
-  /// Why a service did nothing, for its answer.
+  /// Reason why a service did nothing, for its answer.
   static std::string refusal_of(const std::exception& error);
   /// Begins the subject from time zero. Returns what began; `success`: whether it did.
   std::string reset(const std::shared_ptr<const Subject>& subject, bool& success);
   void reset_with(const std::vector<std::string>& set, Reset::Response& response);
   void step(const Step::Request& request, Step::Response& response);
-  /// Why a step cannot begin now, or empty.
+  /// Reason why a step cannot begin now, or empty.
   std::string step_refused() const;
   /// Waits for the messages on command topics that the request wants first. False, with the answer, when they stay
   /// away.
@@ -134,7 +134,7 @@ class SimulatorNode {
   bool on_load_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response);
   void save_checkpoint(const std::string& path, Checkpoint::Response& response);
   void load_checkpoint(const std::string& path, Checkpoint::Response& response);
-  /// Of a run that goes on from that simulated time [ns].
+  /// Stamps of a run that goes on from that simulated time [ns].
   Stamps stamps_from(std::int64_t time) const;
   void leave_failed_state();
 
@@ -142,8 +142,8 @@ class SimulatorNode {
   const NodeParameters parameters_;
   ExitWatchdog& watchdog_;
   const HeightMaps heights_;                // with the overrides of the scene
-  FramePoses poses_;                        // of the present run
-  std::shared_ptr<const Subject> subject_;  // of the present run
+  FramePoses poses_;                        // poses of the present run
+  std::shared_ptr<const Subject> subject_;  // subject of the present run
   NodeHealth health_;
   Mailbox mailbox_;
   SimClock clock_;
@@ -158,12 +158,12 @@ class SimulatorNode {
 
   int runs_ = 0;
   bool paused_ = false;
-  bool pace_told_ = false;           // of a run that nothing paces
-  std::uint64_t given_up_seen_ = 0;  // of Pacer::given_up()
+  bool pace_told_ = false;           // true after the pace of a run that nothing paces was told
+  std::uint64_t given_up_seen_ = 0;  // last value of Pacer::given_up()
   std::optional<Pacer::Clock::time_point> overload_told_;
-  std::string failure_;       // of the present run
+  std::string failure_;       // failure of the present run
   int failure_code_ = 0;      // exit code that goes with it
-  bool bag_lost_ = false;     // of any run
+  bool bag_lost_ = false;     // true if the bag of any run was lost
   bool record_lost_ = false;  // and said so
 };
 

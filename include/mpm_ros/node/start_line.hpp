@@ -21,8 +21,8 @@ struct StartFacts {
   bool paused = false;
   bool clock = false;                                        ///< publishes /clock
   std::string commands;                                      ///< bag whose commands are replayed; empty: none
-  std::vector<std::pair<std::string, std::string>> frames;   ///< of bodies that follow one: body, tf frame
-  std::vector<std::pair<std::string, std::string>> heights;  ///< of bodies whose heights came in a message: body, topic
+  std::vector<std::pair<std::string, std::string>> frames;   ///< frames of bodies that follow one: body, tf frame
+  std::vector<std::pair<std::string, std::string>> heights;  ///< heights that came in a message: body, topic
 };
 
 /// "blade_in_soil: 40640 particles, lockstep, 2 threads, in /mpm; waits for the service /mpm/step"

@@ -21,7 +21,7 @@ struct RecordedRun {
   RunStatistics statistics;
   std::vector<std::string> gaps;    ///< in time, at most ten
   std::vector<CheckResult> checks;  ///< empty unless asked for
-  std::vector<std::string> notes;   ///< what a reader should know before the figures: cut short, ended early, …
+  std::vector<std::string> notes;   ///< notes that a reader should know before the figures: cut short, ended early, …
 
   /// "half_sine", or the bag's path when the scene is not known.
   const std::string& scene_name() const { return info && !info->scene.empty() ? info->scene : path; }

@@ -12,17 +12,17 @@ namespace mpm_ros {
 
 struct ReportOptions {
   std::vector<std::string> bags;  ///< one, or several to compare
-  std::string name_space;         ///< of the run, when a bag holds several
+  std::string name_space;         ///< namespace of the run, when a bag holds several
   std::string csv;                ///< folder for the tables; empty: none. Several bags: a folder each in it
   std::string json;               ///< file for the figures of the tables; "-": to `out`, and nothing else; empty: none
   std::string plots;              ///< folder for the pictures; empty: none
   std::string animate;            ///< file for the animation, .mp4 or .gif; empty: none
   std::string field;              ///< that colours the particles of the pictures; empty: chosen
-  std::size_t snapshots = 10;     ///< of particles, written at most
-  std::size_t frames = 150;       ///< of the animation, at most
+  std::size_t snapshots = 10;     ///< snapshots of particles, written at most
+  std::size_t frames = 150;       ///< frames of the animation, at most
   bool check = false;
   bool same = false;                     ///< compare the two bags, and nothing else
-  std::optional<double> tolerance;       ///< of that, relative; none: to the bit
+  std::optional<double> tolerance;       ///< tolerance of that, relative; none: to the bit
   std::function<bool()> stop_requested;  ///< asked between messages; empty: never
 };
 

@@ -23,7 +23,7 @@ class FieldRange : public RunVisitor {
   explicit FieldRange(std::string field) : field_(std::move(field)) {}
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
   const std::string& field() const { return field_; }
-  const mpm::Box& box() const { return box_; }  ///< of the particles' centres [m]
+  const mpm::Box& box() const { return box_; }  ///< box of the particles' centres [m]
   /// Value that a part of the particles and snapshots lies below, 0 <= part <= 1, from an even sample.
   double quantile(double part) const;
 
@@ -31,7 +31,7 @@ class FieldRange : public RunVisitor {
   std::string field_;
   mpm::Box box_;
   std::vector<float> sample_;
-  std::size_t stride_ = 1;   ///< of the values that are kept
+  std::size_t stride_ = 1;   ///< stride of the values that are kept
   std::size_t counted_ = 0;  ///< values met
 };
 

@@ -32,7 +32,7 @@
 
 namespace mpm_ros {
 
-/// Whether a file begins as a bag does, whole or not.
+/// True if a file begins as a bag does, whole or not.
 bool is_bag(const std::string& path);
 
 /// Receives the messages of a run. `time` [ns] is simulated, since the start: the message's stamp less the run's start.
@@ -72,11 +72,11 @@ class RunBag {
   std::size_t parts() const { return bags_.size(); }
   /// The namespace that the topics share: "/mpm", or "" for the root.
   const std::string& name_space() const { return name_space_; }
-  /// What made the run; nothing when it was not recorded.
+  /// Information on what made the run; nothing when it was not recorded.
   const std::optional<RunInfo>& info() const { return info_; }
   /// The topics that a complete bag has and this one has not.
   const std::vector<std::string>& missing() const { return missing_; }
-  /// Whether the recording was cut short, so that only a part of it could be read.
+  /// True if the recording was cut short, so that only a part of it could be read.
   bool cut_short() const { return copy_.has_value(); }
   const Stamps& stamps() const { return stamps_; }
   /// Gives the view the messages on these topics (full names), of all parts.
@@ -113,11 +113,11 @@ class RunBag {
   std::string name_space_;
   std::optional<TemporaryFolder> copy_;             ///< holds the bags that are read in place of those cut short
   std::vector<std::unique_ptr<rosbag::Bag>> bags_;  ///< in the order of time
-  std::map<std::string, std::string> types_;        ///< of the topics in the bag
+  std::map<std::string, std::string> types_;        ///< types of the topics in the bag
   std::optional<RunInfo> info_;
   std::vector<std::string> missing_;
   std::vector<std::string> particle_fields_;
-  std::map<std::string, mpm::Vec3> origins_;  ///< of frames that are not the world's (local_frame.hpp)
+  std::map<std::string, mpm::Vec3> origins_;  ///< origins of frames that are not the world's (local_frame.hpp)
   Stamps stamps_;
 };
 

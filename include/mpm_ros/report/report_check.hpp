@@ -1,6 +1,6 @@
-// What must hold of any recorded run, found from its messages alone. Where a message says of itself that all is well,
-// the same is worked out again from its parts: the audit's residual from momentum and impulses, a body's impulse from
-// its forces and from what the material's balance says of it.
+// Checks of what must hold of any recorded run, found from its messages alone. Where a message says of itself that all
+// is well, the same is worked out again from its parts: the audit's residual from momentum and impulses, a body's
+// impulse from its forces and from what the material's balance says of it.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ class RunChecks : public RunVisitor {
 
   /// Call once all messages are read.
   std::vector<CheckResult> results() const;
-  /// Where time is missing: "contact_forces: 0.002 s missing before 0.105 s".
+  /// Places where time is missing: "contact_forces: 0.002 s missing before 0.105 s".
   const std::vector<std::string>& gaps() const { return gaps_; }
 
  private:
@@ -53,10 +53,10 @@ class RunChecks : public RunVisitor {
     std::optional<std::int64_t> shorter;  ///< end of a shorter interval, allowed at the end alone
     std::uint64_t count = 0;
   };
-  /// Of a rigid body, or of a pair of deformable ones.
+  /// Impulse of a rigid body, or of a pair of deformable ones.
   struct KnownImpulse {
-    mpm::Vec3 impulse = mpm::Vec3::Zero();  ///< of the last message
-    std::optional<std::int64_t> time;       ///< of the last message
+    mpm::Vec3 impulse = mpm::Vec3::Zero();  ///< impulse of the last message
+    std::optional<std::int64_t> time;       ///< time of the last message
     double exchanged = 0.0;                 ///< sum of |force| times interval [N s]
   };
 
@@ -66,14 +66,14 @@ class RunChecks : public RunVisitor {
   /// The force over the interval that ends now, and the impulse since the start.
   template <class Contact>
   void add_up(KnownImpulse& known, std::int64_t time, const Contact& contact, const mpm::Vec3& force);
-  /// Whether time and steps since the last state belong together.
+  /// Checks that time and steps since the last state belong together.
   void check_steps(std::int64_t time, const SolverState& state);
   /// Energy that came or went without an account since the first state.
   void check_balance(std::int64_t time, const SolverState& state);
   void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
 
   std::int64_t sync_period_;  ///< [ns]
-  double audit_limit_;        ///< of the residual over the momentum exchanged
+  double audit_limit_;        ///< limit of the residual over the momentum exchanged
   std::vector<std::string> missing_;
   bool axisymmetric_;
   std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
@@ -83,7 +83,7 @@ class RunChecks : public RunVisitor {
   std::map<std::string, KnownImpulse> pair_impulses_;  ///< between deformable bodies
   std::set<std::string> posed_;                        ///< bodies with a pose
   std::optional<SolverState> state_;                   ///< the last one
-  std::int64_t state_time_ = 0;                        ///< of it [ns]
+  std::int64_t state_time_ = 0;                        ///< time of it [ns]
   bool from_start_ = false;                            ///< the first state is at time zero
   std::uint64_t commands_ = 0;                         ///< recorded
   std::uint64_t earlier_commands_ = 0;                 ///< before the time of the last command
@@ -94,7 +94,7 @@ class RunChecks : public RunVisitor {
   std::uint64_t applied_ = 0, late_ = 0, refused_ = 0;  ///< as the last state counts them
   std::uint64_t clocks_ = 0;                            ///< messages on /clock
   std::int64_t last_clock_ = 0;                         ///< [ns]
-  std::vector<std::string> impulse_names_;              ///< of the first state
+  std::vector<std::string> impulse_names_;              ///< names of the first state
   double worst_audit_ = 0.0;
   double worst_impulse_ = 0.0;
   double worst_reaction_ = 0.0;

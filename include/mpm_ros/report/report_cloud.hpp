@@ -26,10 +26,10 @@ class CloudField {
  public:
   /// @throws BagError as columns_of()
   CloudField(const sensor_msgs::PointCloud2& cloud, const std::string& name);
-  /// Whether the cloud has a field of that name, of a type that is read: float32, float64 or uint32.
+  /// True if the cloud has a field of that name, of a type that is read: float32, float64 or uint32.
   bool found() const { return field_ != nullptr; }
   std::size_t size() const { return size_; }  ///< particles
-  /// Of a particle, 0 to size() - 1; only when found().
+  /// Value of a particle, 0 to size() - 1; only when found().
   double at(std::size_t particle) const;
 
  private:

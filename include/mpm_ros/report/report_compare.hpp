@@ -8,7 +8,7 @@
 
 namespace mpm_ros {
 
-/// What is in one run only (a body, a source of momentum) is shown for that one, with a dash for the others.
+/// Shows what is in one run only (a body, a source of momentum) for that one, with a dash for the others.
 std::string comparison(const std::vector<RecordedRun>& runs);
 
 }  // namespace mpm_ros

@@ -51,8 +51,8 @@ class SnapshotExport : public RunVisitor {
   ParticlesCsv particles_;
 };
 
-/// Which of the snapshots taken at `times` [ns] to write: at most `most` of them, evenly spread from the first to the
-/// last, with one place kept for the snapshot nearest to `peak` [ns] when there are three places or more.
+/// Choice of the snapshots, taken at `times` [ns], to write: at most `most` of them, evenly spread from the first to
+/// the last, with one place kept for the snapshot nearest to `peak` [ns] when there are three places or more.
 std::set<std::size_t> choose_snapshots(const std::vector<std::int64_t>& times, std::size_t most,
                                        std::optional<std::int64_t> peak);
 

@@ -5,7 +5,7 @@
 
 namespace mpm_ros {
 
-/// What stands in the way of a report beside the bag itself: a folder, a script, options that do not go together.
+/// Error that stands in the way of a report beside the bag itself: a folder, a script, options that do not go together.
 /// what() is one line.
 class ReportError : public std::runtime_error {
  public:

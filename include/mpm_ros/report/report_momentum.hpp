@@ -19,7 +19,7 @@ namespace mpm_ros {
 
 class MomentumCheck : public RunVisitor {
  public:
-  /// Of a run with this scene. Makes all its particles once, to know their masses.
+  /// Makes the check of a run with this scene. Makes all its particles once, to know their masses.
   explicit MomentumCheck(const std::optional<RunInfo>& info);
 
   void contact_forces(std::int64_t time, const ContactForces& message) override;
@@ -35,7 +35,7 @@ class MomentumCheck : public RunVisitor {
     mpm::Vec3 momentum = mpm::Vec3::Zero();  ///< [N s]
     mpm::Vec3 size = mpm::Vec3::Zero();      ///< sum of m |v| [N s]
   };
-  /// What is known at one time.
+  /// Momentum that is known at one time.
   struct Account {
     std::int64_t time = 0;
     Sums sums;
@@ -49,18 +49,18 @@ class MomentumCheck : public RunVisitor {
   std::vector<double> masses_;             ///< by id [kg]
   double total_mass_ = 0.0;                ///< [kg]
   mpm::Vec3 gravity_ = mpm::Vec3::Zero();  ///< [m/s^2]
-  double audit_limit_ = 0.0;               ///< of the solver's own residual over the momentum exchanged
-  std::string obstacle_;                   ///< why the check cannot be made; empty: it can
+  double audit_limit_ = 0.0;               ///< limit of the solver's own residual over the momentum exchanged
+  std::string obstacle_;                   ///< reason why the check cannot be made; empty: it can
   std::string axes_;                       ///< along which velocities are recorded: "xz"
   std::optional<std::int64_t> contact_time_;
   std::optional<Account> cloud_;  ///< the last one, until it is compared
   std::optional<SolverState> state_;
-  std::int64_t state_time_ = 0;  ///< of it [ns]
+  std::int64_t state_time_ = 0;  ///< time of it [ns]
   mpm::Vec3 on_bodies_ = mpm::Vec3::Zero();
   std::optional<Account> first_;
   std::uint64_t checked_ = 0;
   double worst_ = 0.0;     ///< residual over the momentum exchanged
-  double rounding_ = 0.0;  ///< what rounding allows, the same way, where the residual was worst
+  double rounding_ = 0.0;  ///< limit by rounding, the same way, where the residual was worst
   std::string failure_;    ///< the first
 };
 

@@ -10,7 +10,7 @@
 
 namespace mpm_ros {
 
-/// What the plotting script is asked for.
+/// Options of the plotting script.
 struct PlotOptions {
   std::vector<std::string> csv;  ///< folders with the tables, one a run; several are drawn on one another
   std::string plots;             ///< folder for the pictures; made if need be

@@ -1,5 +1,5 @@
-// Whether two recordings are of the same run: to the bit, or to a tolerance. Read side by side, topic by topic and
-// message by message, in the memory of one message of each.
+// Comparison of two recordings for being of the same run: to the bit, or to a tolerance. Read side by side, topic by
+// topic and message by message, in the memory of one message of each.
 //
 // Compared are contact forces, states of bodies and of the solver, commands, global quantities, and particles by their
 // ids, at their simulated times; other topics repeat these. Left out is what the machine and the moment make:

@@ -1,4 +1,4 @@
-// What the scene's text, which every bag carries, says of the run: when it was to end, by which method it was solved,
+// Facts on the run from the scene's text, which every bag carries: when it was to end, by which method it was solved,
 // and how heavy its particles are. Independent of what the solver recorded.
 #pragma once
 
@@ -19,7 +19,7 @@ struct SceneFacts {
   std::string method;         ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
   bool axisymmetric = false;
   mpm::Vec3 gravity = mpm::Vec3::Zero();               ///< [m/s^2]
-  mpm::Precision precision = mpm::Precision::float64;  ///< of the particles
+  mpm::Precision precision = mpm::Precision::float64;  ///< precision of the particles
 };
 
 /// A text that this version does not read (or none) gives facts without values.

@@ -1,5 +1,5 @@
-// What the tables of a report say, gathered message by message: a few numbers a body, nothing that grows with the run
-// but the times of the particle snapshots.
+// Contents of the tables of a report, gathered message by message: a few numbers a body, nothing that grows with the
+// run but the times of the particle snapshots.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct NumberStatistics {
   std::vector<Figure> figures;             ///< figures that are reported for it
   Extreme peak;                            ///< largest of an interval
   mpm::Vec3 integral = mpm::Vec3::Zero();  ///< over time
-  mpm::Vec3 end = mpm::Vec3::Zero();       ///< of the last interval
+  mpm::Vec3 end = mpm::Vec3::Zero();       ///< value of the last interval
 };
 
 /// Contact of a rigid body with the material, or between two deformable bodies; world axes.
@@ -50,7 +50,7 @@ struct ContactStatistics {
 
 /// Contact and motion of one rigid body over the run; world axes.
 struct BodyStatistics : ContactStatistics {
-  mpm::Box range;                  ///< of the body's origin [m]
+  mpm::Box range;                  ///< range of the body's origin [m]
   std::optional<mpm::Pose> first;  ///< pose in the first message
   mpm::Pose last;                  ///< pose in the last message
   double largest_turn = 0.0;       ///< largest angle from the first pose [rad]
@@ -91,9 +91,9 @@ class RunStatistics : public RunVisitor {
   const SolverState& last_state() const { return last_state_; }
   double smallest_j() const { return smallest_j_; }    ///< det F over the whole run
   double worst_audit() const { return worst_audit_; }  ///< largest residual that the solver reports
-  /// When the particle snapshots were taken [ns].
+  /// Times at which the particle snapshots were taken [ns].
   const std::vector<std::int64_t>& snapshots() const { return snapshots_; }
-  /// When the largest force of all bodies acted [ns]; nothing when no body was touched.
+  /// Time at which the largest force of all bodies acted [ns]; nothing when no body was touched.
   std::optional<std::int64_t> peak_time() const;
 
  private:

@@ -18,9 +18,9 @@ namespace mpm_ros {
 /// One value of a message.
 struct ComparedValue {
   std::string field;    ///< "blade force x"
-  std::string kind;     ///< what it is measured with: "blade force" of each component
-  double number = 0.0;  ///< of a number
-  std::string word;     ///< of a word
+  std::string kind;     ///< kind that it is measured with: "blade force" of each component
+  double number = 0.0;  ///< value of a number
+  std::string word;     ///< value of a word
 };
 
 /// All values but header, stamps, and what the wall clock makes, in a fixed order.

@@ -13,7 +13,7 @@ class Script {
  public:
   struct Streams {
     bool input = false;  ///< its standard input is what write() is given
-    bool quiet = false;  ///< what it prints is dropped
+    bool quiet = false;  ///< output is dropped
   };
   /// `words`: the program (looked for along PATH when it has no slash) and its arguments.
   /// @throws ReportError when it cannot be started

@@ -18,9 +18,9 @@ namespace mpm_ros {
 
 struct Aim {
   mpm::Scene scene;                   ///< with the choice, where it has a target
-  std::vector<std::string> news;      ///< what was chosen and why, a line each; nothing without a target
+  std::vector<std::string> news;      ///< lines on what was chosen and why, a line each; nothing without a target
   std::vector<std::string> warnings;  ///< a target that is not in reach, and what would have to be given up
-  std::string table;                  ///< of choices not taken, with their price; empty where none was made now
+  std::string table;                  ///< table of choices not taken, with their price; empty where none was made now
 };
 
 /// Chooses for a scene whose target is open; any other comes back as it is, with the news of a choice that was

@@ -25,7 +25,7 @@ namespace mpm_ros {
 
 struct BagOptions {
   std::string topics_below = "/mpm";  ///< namespace of the topics in the bag; "/" for none
-  std::string compression = "none";   ///< of chunks: "none", "lz4" or "bz2"
+  std::string compression = "none";   ///< compression of chunks: "none", "lz4" or "bz2"
   std::uint64_t split_size = 0;       ///< [byte] at which a part ends; 0: never
   std::int64_t split_duration = 0;    ///< [ns] simulated, the same
   bool required = true;               ///< false: a disk that fails ends the record, not the run; see failure()
@@ -40,13 +40,13 @@ class BagRecorder : public MessageSink {
   /// Closes the bag, so that it can be read whatever ended the run.
   ~BagRecorder() override;
 
-  /// Of the first part.
+  /// Path of the first part.
   const std::string& path() const { return path_; }
   /// Parts written so far, the present one among them.
   int parts() const { return part_; }
-  /// Whether files of an earlier recording were replaced.
+  /// True if files of an earlier recording were replaced.
   bool replaced() const { return replaced_; }
-  /// Why the record ended before the run, one line; empty while it goes on.
+  /// Reason why the record ended before the run, one line; empty while it goes on.
   const std::string& failure() const { return failure_; }
 
   /// Everything of a sync point is written: a part, or a chunk, may end here. @throws BagError
@@ -92,7 +92,7 @@ class BagRecorder : public MessageSink {
   std::string path_;
   const BagOptions options_;
   std::string prefix_;
-  std::unique_ptr<rosbag::Bag> bag_;                ///< of the present part; null when closed or given up
+  std::unique_ptr<rosbag::Bag> bag_;                ///< bag of the present part; null when closed or given up
   std::pair<std::uint64_t, std::uint64_t> opened_;  ///< device and number of its file
   int part_ = 1;
   bool part_over_ = false;

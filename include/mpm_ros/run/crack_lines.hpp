@@ -8,7 +8,7 @@
 
 namespace mpm_ros {
 
-/// Of each crack the face above, then the one below, start to end. Values at the points: `crack` (from 1 in the
+/// Lines of each crack: the face above, then the one below, start to end. Values at the points: `crack` (from 1 in the
 /// message's order), `face` (1 above, 2 below), `opening` and `slip` [m] of the face above against the one below,
 /// across the chain and along it, `normal_traction` and `shear_traction` [Pa], `debonded` (0 or 1), and at tips `j`
 /// [J/m^2], `k_one` and `k_two` [Pa m^0.5]: NaN at all other points. `time` [s].

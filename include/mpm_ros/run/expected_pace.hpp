@@ -15,7 +15,7 @@ namespace mpm_ros {
 struct ExpectedPace {
   mpm::pace::Forecast forecast;
   std::string origin;    ///< "70 steps timed 2 h ago"
-  mpm::pace::Plan plan;  ///< what would bring it to the wanted pace
+  mpm::pace::Plan plan;  ///< changes that would bring it to the wanted pace
 };
 
 /// Steps are timed for so long at most, the time to build a copy left out [s].

@@ -14,8 +14,8 @@ namespace mpm_ros {
 
 struct JudgedTools {
   std::vector<mpm::pace::ToolInGround> all;  ///< at least one
-  std::vector<std::string> names;            ///< of their bodies; empty where no rehearsal found a tool in the ground
-  std::string unknown;                       ///< what no error was measured for, "a wheel in sand"; empty if all were
+  std::vector<std::string> names;            ///< names of their bodies; empty if no rehearsal found one in the ground
+  std::string unknown;                       ///< case without a measured error, "a wheel in sand"; empty if none
 
   /// "0.021 m of 'rover', a wheel"
   std::string text() const;

@@ -1,4 +1,4 @@
-// Where a run's files go: names that tell the scene and the date, and folders that are nobody else's.
+// Places of a run's files: names that tell the scene and the date, and folders that are nobody else's.
 #pragma once
 
 #include <string>

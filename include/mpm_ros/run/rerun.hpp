@@ -1,4 +1,4 @@
-// What a recording holds that a run needs to be made again: the scene's text, the commands at their effect times, how
+// Contents of a recording that a run needs to be made again: the scene's text, the commands at their effect times, how
 // far it went and which state it reached.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Rerun {
   RunInfo info;
   std::vector<mpm_ros::Command> commands;
   std::int64_t end = 0;            ///< [ns] simulated time of the last state recorded
-  std::string state_hash;          ///< of the last state that was recorded with one; empty: none was
+  std::string state_hash;          ///< hash of the last state that was recorded with one; empty: none was
   std::int64_t hashed_at = 0;      ///< [ns] its time
   std::vector<mpm::CutStep> cuts;  ///< steps whose sweeps time.budget ended
   bool failed = false;             ///< the physics failed after `end`
@@ -31,15 +31,15 @@ struct Rerun {
 /// @throws BagError when it cannot be read, tells no scene, or does not begin at the run's start
 Rerun read_rerun(const std::string& bag, bool resumed = false);
 
-/// Whether a run that is made again is the recorded one, to the bit.
+/// Check that a run that is made again is the recorded one, to the bit.
 class RerunCheck {
  public:
   explicit RerunCheck(const Rerun& rerun) : rerun_(rerun) {}
-  /// What makes it another run, so that nothing is compared.
+  /// Notes what makes it another run, so that nothing is compared.
   void differs(const std::string& why) { differences_.push_back(why); }
   /// After each sync period, and after a failure.
   void look(const mpm::Simulation& simulation);
-  /// What came out, one line.
+  /// Verdict in one line.
   std::string verdict() const;
   /// False when another state was reached than the recorded one.
   bool passed() const { return !comparable() || hash_ == rerun_.state_hash; }
@@ -49,7 +49,7 @@ class RerunCheck {
 
   const Rerun& rerun_;
   std::vector<std::string> differences_;
-  std::string hash_;  ///< of the state where one was recorded; empty: not reached
+  std::string hash_;  ///< hash of the state where one was recorded; empty: not reached
 };
 
 }  // namespace mpm_ros

@@ -29,7 +29,7 @@ struct RunOptions {
   BagOptions bag_options;
   std::string parameters;      ///< for RunInfo, YAML
   std::string resume;          ///< checkpoint that it goes on from; empty: none
-  mpm::SerialiseMore more;     ///< what the caller keeps beside, in that checkpoint
+  mpm::SerialiseMore more;     ///< data that the caller keeps beside, in that checkpoint
   std::function<bool()> stop;  ///< as mpm::SimulationOptions has it
   std::function<void(const mpm::Settling&)> settling;
   /// That compute the run together; null: this process alone. Each has a Run; the first one has all bags and sinks, and
@@ -58,8 +58,8 @@ class Run {
   /// @throws mpm::StoppedError; finish() then ends the record with the sync point before. `late`: as in
   /// mpm::Simulation::advance().
   void advance(std::chrono::steady_clock::duration late = {});
-  /// What should be known of the run since the last call, a line each: a rigid body that has left the grid, a crack's
-  /// tip that has lost its J or grows no more, forces that time.budget makes worse.
+  /// Returns what should be known of the run since the last call, a line each: a rigid body that has left the grid, a
+  /// crack's tip that has lost its J or grows no more, forces that time.budget makes worse.
   std::vector<std::string> take_warnings();
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
@@ -97,13 +97,13 @@ class Run {
   /// Lets the bag begin another part where one is due.
   void close_part();
   void close(const std::string& failure);
-  /// Whether a rigid body, with the sphere around its box, lies wholly beside the grid; one that has no end does not.
+  /// True if a rigid body, with the sphere around its box, lies wholly beside the grid; one that has no end does not.
   bool outside(const mpm::RigidBody& body) const;
   void look_for_lost_bodies();
   void look_for_fast_bodies();
   void look_for_lost_tips();
   void look_for_soft_sweeps();
-  /// What a checkpoint holds beside the simulation.
+  /// Data that a checkpoint holds beside the simulation.
   void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
 
   const mpm::Scene& scene_;
@@ -118,9 +118,9 @@ class Run {
   std::chrono::steady_clock::duration wall_{};  // while not paused
   std::int64_t from_ = 0;                       // [ns] simulated time of the checkpoint
   enum class Place : std::uint8_t { outside_yet, inside, lost };
-  std::vector<Place> places_;  // of the rigid bodies
+  std::vector<Place> places_;  // places of the rigid bodies
   const mpm::SlowestWave slowest_wave_;
-  std::vector<bool> told_of_speed_;  // of the rigid bodies
+  std::vector<bool> told_of_speed_;  // true for each of the rigid bodies that was told of
   struct ToldOfTip {
     bool no_j = false, stopped = false;
   };

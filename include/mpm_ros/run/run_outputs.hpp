@@ -1,4 +1,4 @@
-// What a run writes and when: turns the simulation's state at sync points into messages and hands them to sinks.
+// Outputs of a run and their times: turns the simulation's state at sync points into messages and hands them to sinks.
 // The node and run_scene share it, so that a bag is the same whichever of them wrote it.
 //
 //   RunOutputs outputs(simulation, stamps, options);
@@ -42,14 +42,14 @@ struct OutputOptions {
   std::string world_frame = "world";
   /// Frames that somebody else publishes: a body of such a name has no transform in /tf. Empty names do not count.
   std::vector<std::string> others;
-  double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
+  double force_scale = 0.0;  ///< scale of contact arrows [m/N]; 0: by the largest force met
   bool state_hash = false;   ///< in every solver state, not in the last alone
 };
 
 /// As the scene's `output` says.
 OutputOptions output_options(const mpm::Scene& scene);
 
-/// What made a run. `parameters`: what the caller was given beside the scene, as YAML.
+/// Information on what made a run. `parameters`: what the caller was given beside the scene, as YAML.
 RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, const Stamps& stamps,
                  const std::string& parameters);
 
@@ -100,7 +100,7 @@ class RunOutputs {
   void put_to(const std::string& topic, const Message& message, const Meant& meant);
   /// To the sinks that take those of their own rank, or to the others.
   void write_particles(bool own);
-  /// Whether a sink of this rank wants it.
+  /// True if a sink of this rank wants it.
   bool wanted(const std::string& topic) const;
   /// The same of any rank: where all ranks have to read what is written.
   bool wanted_anywhere(const std::string& topic) const { return simulation_.on_any_rank(wanted(topic)); }
@@ -130,7 +130,7 @@ class RunOutputs {
   std::vector<MessageSink*> sinks_;
   std::vector<std::string> wrench_topics_;
   std::vector<std::string> filtered_topics_;
-  std::vector<WrenchFilter> filters_;  // of each body; empty: none
+  std::vector<WrenchFilter> filters_;  // filters of each body; empty: none
   std::vector<mpm::Wrench> filtered_;  // body axes
   const LocalFrame local_;
   ParticleCloud cloud_;

@@ -9,7 +9,7 @@
 
 namespace mpm_ros {
 
-/// How a process ended: one of them is 0 or more.
+/// End of a process: one of them is 0 or more.
 struct ProcessEnd {
   int code = -1;    ///< its exit code
   int signal = -1;  ///< that killed it

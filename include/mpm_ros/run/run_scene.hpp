@@ -20,20 +20,20 @@ struct RunSceneOptions {
   std::string isa = "auto";              ///< instruction set; auto: the widest one available
   std::string bag;                       ///< path, "auto", or empty for none
   std::string bag_compression = "none";  ///< none, lz4, bz2
-  std::string bag_split;   ///< where a part of the bag ends: "500 MB", or a simulated time as "10 s"; empty: never
-  std::string csv;         ///< folder, or empty for none
-  std::string vtk;         ///< folder of files for ParaView, or empty for none
-  std::string summary;     ///< JSON file, or empty for none
-  std::string out;         ///< folder in which the run gets one of its own, with all of these; empty for none
-  std::string resume;      ///< checkpoint to go on from; the scene may then be empty
-  std::string checkpoint;  ///< file to save the run to at its end, or when it is stopped; empty: none
+  std::string bag_split;         ///< end of a part of the bag: "500 MB", or a simulated time as "10 s"; empty: never
+  std::string csv;               ///< folder, or empty for none
+  std::string vtk;               ///< folder of files for ParaView, or empty for none
+  std::string summary;           ///< JSON file, or empty for none
+  std::string out;               ///< folder in which the run gets one of its own, with all of these; empty for none
+  std::string resume;            ///< checkpoint to go on from; the scene may then be empty
+  std::string checkpoint;        ///< file to save the run to at its end, or when it is stopped; empty: none
   std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
   /// That run the scene together, each with the same options; null: this process alone. The first one alone writes
   /// files and lines. One of them that cannot go on ends all (mpm::end_all).
   std::shared_ptr<mpm::Communicator> ranks;
 };
 
-/// What a run ended with, as an exit code.
+/// Result of a run, as an exit code.
 enum class RunSceneResult {
   done = 0,
   machine_failed = 1,  ///< a disk on which the record does not find room
@@ -44,7 +44,7 @@ enum class RunSceneResult {
 
 /// Names and descriptions of the shipped scenes, a line each.
 void list_scenes(std::ostream& out);
-/// What the scene amounts to, and warnings. @throws mpm::Error
+/// Tells what the scene amounts to, and warnings. @throws mpm::Error
 void explain_scene(const RunSceneOptions& options, std::ostream& out);
 /// Runs the scene to its end, or to the sync point after `stop_requested` says true; then writes what was asked, as
 /// it does when the physics fail. Results go to `out`, progress and errors to `err`; `bar`: progress as a bar that is

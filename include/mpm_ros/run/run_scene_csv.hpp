@@ -36,7 +36,7 @@ class CsvSink : public MessageSink {
   Stamps stamps_;
   CsvExport tables_;
   SnapshotExport snapshots_;
-  std::map<std::string, mpm::Vec3> origins_;  ///< of frames that are not the world's
+  std::map<std::string, mpm::Vec3> origins_;  ///< origins of frames that are not the world's
 };
 
 }  // namespace mpm_ros

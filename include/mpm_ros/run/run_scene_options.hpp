@@ -1,4 +1,4 @@
-// What the options of run_scene say, each checked before anything is run or written.
+// Meaning of the options of run_scene, each checked before anything is run or written.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace mpm_ros {
 
-/// What of the options is this rank's: on others than the first there is nothing to write. @throws mpm::SceneError for
+/// Options of this rank: on others than the first there is nothing to write. @throws mpm::SceneError for
 /// what several ranks cannot do
 RunSceneOptions own_part(const RunSceneOptions& options);
 /// @throws mpm::SceneError on all ranks if one has read another scene than the first, or computes otherwise
@@ -22,7 +22,7 @@ void check_alike(const RunSceneOptions& options, const mpm::Scene& scene);
 mpm::Isa instruction_set(const RunSceneOptions& options);
 /// The scene, or that of the recording, to the end that was asked for. @throws mpm::Error
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun);
-/// Where more threads are asked for than there are processors; else empty.
+/// Warning if more threads are asked for than there are processors; else empty.
 std::string thread_warning(int threads);
 /// @throws mpm::SceneError for particle fields that are none
 void check_fields(const OutputOptions& output);
@@ -31,9 +31,9 @@ void check_fields(const OutputOptions& output);
 void try_summary(const std::string& path);
 /// Makes the folder that an option names, and tries whether files can be made in it. @throws mpm::SceneError
 void try_folder(const std::string& option, const std::string& folder);
-/// Where a part of the bag ends: "500 MB" or "10 s". @throws mpm::SceneError
+/// Reads where a part of the bag ends: "500 MB" or "10 s". @throws mpm::SceneError
 void read_split(const std::string& text, BagOptions& bag);
-/// What goes on keeps what was recorded so far. @throws mpm::SceneError for a name that holds it
+/// Checks that a run that goes on keeps what it has recorded. @throws mpm::SceneError for a name that holds it
 void check_not_there(const RunSceneOptions& options);
 
 }  // namespace mpm_ros

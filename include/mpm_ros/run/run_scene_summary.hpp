@@ -30,12 +30,12 @@ struct RunSummary {
   mpm::SimulationDefinition definition;     ///< particle positions left out
   std::string isa;
   int ranks = 1;
-  int threads = 0;    ///< of each rank
+  int threads = 0;    ///< threads of each rank
   mpm::Traffic sent;  ///< by all ranks since the start
   mpm::SharingReport sharing;
   mpm::SolverState state;
   mpm::SolverState start;  ///< at time zero
-  std::int64_t end = 0;    ///< of the run as it was asked for [ns]
+  std::int64_t end = 0;    ///< end of the run as it was asked for [ns]
   bool cut_short = false;
   std::uint64_t state_hash = 0;   ///< none when it was cut short
   std::uint64_t peak_memory = 0;  ///< [byte] of the whole process; over several ranks of the largest

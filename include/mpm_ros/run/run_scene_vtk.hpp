@@ -42,7 +42,7 @@ class VtkSink : public MessageSink {
  private:
   bool first() const { return ranks_ == nullptr || ranks_->first(); }
   void write_piece(const VtkFile& file) const;
-  /// What the pieces are of.
+  /// Writes the file that names all pieces.
   void write_whole(const VtkFile& file, double time);
   void write_bodies(double time);
   void write_cracks(double time);
@@ -54,8 +54,8 @@ class VtkSink : public MessageSink {
   Stamps stamps_;
   mpm::Communicator* ranks_;
   std::ofstream list_;                        ///< run.pvd, of the first rank
-  int count_ = 0;                             ///< of clouds
-  std::map<std::string, mpm::Vec3> origins_;  ///< of frames that are not the world's: then all is in double precision
+  int count_ = 0;                             ///< number of clouds
+  std::map<std::string, mpm::Vec3> origins_;  ///< origins of frames but the world's: then all is in double precision
   visualization_msgs::MarkerArray shapes_;
   BodyStates bodies_;  ///< as they were last
   Cracks cracks_;      ///< as they were last

@@ -14,11 +14,11 @@ struct RunSweepOptions {
   std::string program;       ///< run_scene
   int jobs = -1;             ///< runs at once; 0: lay out only; -1: as many as cores and memory carry
   int only = 0;              ///< run of a laid-out study to make, alone; 0: all
-  int threads = 1;           ///< of each run
+  int threads = 1;           ///< threads of each run
   std::string isa = "auto";  ///< instruction set of each run
 };
 
-/// What a sweep ended with, as an exit code.
+/// Result of a sweep, as an exit code.
 enum class RunSweepResult {
   done = 0,
   not_all = 1,  ///< stopped, no room on the disk, or other processes have runs under way

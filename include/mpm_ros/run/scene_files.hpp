@@ -15,10 +15,10 @@ namespace mpm_ros {
 /// folder or in a package. `text`: the scene's, YAML. `scene_path`: where it was read.
 std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path);
 
-/// Where those files lie, and the meshes that a robot's description among them names.
+/// Paths of those files, and the meshes that a robot's description among them names.
 std::vector<std::string> files_read_by(const std::string& text, const std::string& scene_path);
 
-/// What became of recorded files, a line for each that is gone or has changed.
+/// Fate of recorded files, a line for each that is gone or has changed.
 std::vector<std::string> changed_files(const std::vector<SceneFile>& recorded, const std::string& scene_path);
 
 }  // namespace mpm_ros

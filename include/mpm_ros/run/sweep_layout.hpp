@@ -10,8 +10,8 @@ namespace mpm_ros {
 
 struct LaidOut {
   int runs = 0;
-  double memory = 0.0;       ///< of the largest run, at least [bytes]
-  bool has_metrics = false;  ///< whether a run's scene has any
+  double memory = 0.0;       ///< memory of the largest run, at least [bytes]
+  bool has_metrics = false;  ///< true if a run's scene has any
 };
 
 /// The study of a plan, or of a folder that holds one. `out` names its folder where it is not that of the plan.

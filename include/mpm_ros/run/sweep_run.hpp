@@ -12,7 +12,7 @@
 
 namespace mpm_ros {
 
-/// How each run of a sweep is started.
+/// Options for the start of each run of a sweep.
 struct SweepRunOptions {
   std::string program;  ///< run_scene
   int threads = 1;
@@ -29,7 +29,7 @@ class SweepRun {
   std::optional<RunResult> end();
 
  private:
-  /// What its files and the end of its process say. @throws MachineError
+  /// Result, by its files and the end of its process. @throws MachineError
   RunResult result_of(const ProcessEnd& end) const;
 
   const Study& study_;

@@ -1,4 +1,4 @@
-// What one rank of several does alone, such as writing a file, and all have to know the end of.
+// Work that one rank of several does alone, such as writing a file, and all have to know the end of.
 #pragma once
 
 #include <exception>

@@ -57,8 +57,8 @@ class VtkFile {
 
   double time_;
   std::size_t points_;
-  const char* kind_ = "";           ///< of what is drawn: "Verts", "Lines" or "Polys"; empty: nothing is
-  std::vector<std::int32_t> ends_;  ///< of each cell: the number of points before the next one's
+  const char* kind_ = "";           ///< kind of what is drawn: "Verts", "Lines" or "Polys"; empty: nothing is
+  std::vector<std::int32_t> ends_;  ///< for each cell, the number of points before the next one's
   std::vector<Array> place_, values_;
 };
 

@@ -36,11 +36,11 @@ enum class RunState {
 };
 const char* state_name(RunState state);
 
-/// How a run ended.
+/// End of a run.
 struct RunResult {
   RunState state = RunState::open;
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< what the plan sets in this run, by path
-  std::string reason;                                           ///< of what is neither open nor done, one sentence
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< settings of the plan in this run, by path
+  std::string reason;                                           ///< reason if neither open nor done, one sentence
   std::vector<std::pair<std::string, double>> metrics;          ///< the scene's; NaN for one without a value
   std::string state_hash;                                       ///< empty when it did not come to its end
   double wall_seconds = 0.0;                                    ///< from start to end of its process
@@ -61,7 +61,7 @@ class Study {
   /// STUDY/runs/0017
   std::string of_run(int run) const;
   std::string of_run(int run, const std::string& file) const { return of_run(run) + "/" + file; }
-  /// Whether it has been laid out: it has a plan, and the lock that tells it from a folder with somebody's plan.
+  /// True if it has been laid out: it has a plan, and the lock that tells it from a folder with somebody's plan.
   bool there() const;
   /// Runs that it was laid out with: the highest number of a folder in runs/.
   int runs() const;
@@ -74,7 +74,7 @@ class Study {
   std::string folder_;
 };
 
-/// Whether `path` is the folder of a study.
+/// True if `path` is the folder of a study.
 bool is_study(const std::string& path);
 
 /// Writes a file under another name, and gives it its own when all of it is on the disk: a reader finds the old one or

@@ -13,7 +13,7 @@ struct SweepTable {
   /// names of metrics, "state", "reason".
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
-  std::size_t parameters = 0, metrics = 0;  ///< how many of the columns they are
+  std::size_t parameters = 0, metrics = 0;  ///< numbers of the columns that they are
   int done = 0, failed = 0, stopped = 0, open = 0;
 
   int runs() const { return done + failed + stopped + open; }

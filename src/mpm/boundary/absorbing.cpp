@@ -113,7 +113,7 @@ void Absorbing::find_nodes(const Grid& grid) {
   }
 }
 
-// Of all together first, then of each column.
+// Sums of all together first, then of each column.
 std::vector<Absorbing::WaveSum> Absorbing::sum_waves(const Grid& grid) const {
   const GridLayout& layout = grid.layout;
   const int axis = face_ / 2, on_face = face_ % 2 == 0 ? 0 : layout.last_node(axis);

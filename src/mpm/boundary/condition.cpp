@@ -8,9 +8,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kUnit = 1e-9;          ///< of 1, by which a unit vector's length may be off
-constexpr double kSameOrAcross = 1e-9;  ///< of a cosine, by which directions may miss being the same or orthogonal
-constexpr double kOnSurface = 1e-6;     ///< of a cell: a node so far outside the region is on its surface
+constexpr double kUnit = 1e-9;          ///< largest error of a unit vector's length
+constexpr double kSameOrAcross = 1e-9;  ///< largest error of the cosine of directions that are the same or orthogonal
+constexpr double kOnSurface = 1e-6;     ///< part of a cell: a node so far outside the region is on its surface
 
 bool moves(const RigidBodyDefinition& region) {
   const auto moving = [](const Function& f) { return !f.is_zero(); };

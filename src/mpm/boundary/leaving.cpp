@@ -9,7 +9,7 @@
 namespace mpm {
 
 Leaving::Returned Leaving::put_back_own() {
-  constexpr double kInside = 1e-3;  // of a cell, by which a particle is put inside the edge
+  constexpr double kInside = 1e-3;  // part of a cell by which a particle is put inside the edge
   Returned returned;
   for (ParticleSet& set : sets_) {
     for (int p = 0; p < set.size(); ++p) {

@@ -154,7 +154,7 @@ void Wall::momentum_updated(FieldContext& context) {
   each_node([&](std::size_t i, Deeds& deeds) { act(i, context, n, deeds); });
   tell_of_heat(context);
   held_.clear();
-  // How a wall that always holds held before decides with USF alone, in hold_up().
+  // Keeps how the wall held: for one that always holds this decides with USF alone, in hold_up().
   if (!always_holds() || context.strain_at_start == 1.0) {
     for (const std::uint32_t i : carrying_) {
       if (nodes_[i].hold != Hold::free) held_.add(nodes_[i].id, nodes_[i].hold);

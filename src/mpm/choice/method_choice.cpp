@@ -12,7 +12,7 @@ namespace {
 
 constexpr Transfer kFlip = {TransferKind::flip, 1.0, 2};
 
-/// What is charted beside FLIP.
+/// Transfers that are charted beside FLIP.
 const std::vector<Transfer>& other_transfers() {
   static const std::vector<Transfer> list = {{TransferKind::flip, 0.99, 2}, {TransferKind::flip, 0.0, 2},
                                              {TransferKind::xpic, 1.0, 2},  {TransferKind::xpic, 1.0, 3},

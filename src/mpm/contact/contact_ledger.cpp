@@ -33,7 +33,7 @@ void ContactLedger::give(const ContactImpulse& given) {
   given_ += given.impulse;
   given_angular_ += given.arm.cross(given.impulse);
   sums_.friction -= along;
-  sums_.pressed += std::max(normal, 0.0);  // what adheres may pull
+  sums_.pressed += std::max(normal, 0.0);  // leaves out pull by adhesion
   sums_.pressed_arm += std::max(normal, 0.0) * given.arm;
   sums_.work += given.impulse.dot(given.velocity);
   sums_.friction_energy -= along.dot(given.mean_slip);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNoTraction = 1e-12;
 
-constexpr double kOnAxis = 1e-6;  // of a cell
+constexpr double kOnAxis = 1e-6;  // part of a cell
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void ContactNodes::load(Pass pass, const Block& block, const Node& node, double 
     pair.on_a.setZero();
     pair.on_b.setZero();
     if (pass == Pass::strain && pair.interface != nullptr) {
-      // What is too stiff to open within a step moves as one here too; strain would else be taken from a motion that
+      // Surfaces too stiff to open within a step move as one here too; strain would else be taken from a motion that
       // the interface forbids, which gains energy as letting go of pressed nodes does (step/coulomb.hpp).
       // No traction of the opening there is, but the side that the surfaces are on counts.
       pair.opening *= kNoTraction;

@@ -43,7 +43,7 @@ double cell_along(const GridLayout& layout, const Vec3& direction) {
   return 1.0 / inverse;
 }
 
-/// How far a place lies beyond a body's surface along a direction [m]; negative inside.
+/// Distance of a place beyond a body's surface along a direction [m]; negative inside.
 double beyond(const RigidBody& body, const Vec3& place, const Vec3& along) {
   const SurfacePoint surface = nearest(body, place);
   return surface.distance * surface.normal.dot(along);
@@ -94,10 +94,10 @@ Edges edges_near(const RigidBody& body, const ContactPoint& point, const GridLay
   return edges;
 }
 
-/// What lies beyond an edge, as a node near it sees it.
+/// Material beyond an edge, as a node near it sees it.
 struct Beyond {
   int node = -1;        ///< none if negative
-  double backed = 0.0;  ///< how far the plane that continues the face is pressed from behind
+  double backed = 0.0;  ///< fullness behind the plane that continues the face, 0 to 1
 };
 
 /// Adds to a node of the list, or a node to the list.

@@ -5,7 +5,7 @@
 namespace mpm {
 namespace {
 
-// Of the largest velocity difference: what round-off leaves.
+// Part of the largest velocity difference that round-off leaves.
 constexpr double kSettled = 1e-15;
 
 PairImpulse law_of(const NodePair& pair, const Vec3& stick, const Vec3& normal, double mass, double dt) {

@@ -1,4 +1,4 @@
-// Which nodes the points of contact have, and in which order the points are solved. Sweeps end at a tolerance, so the
+// Nodes of the points of contact, and the order in which the points are solved. Sweeps end at a tolerance, so the
 // order is seen in their result: it is that in which particles lie in memory, the same on any number of ranks.
 #include <algorithm>
 

@@ -9,7 +9,7 @@ constexpr double kTouching = 1e-2;   ///< cells: a point this near counts to the
 constexpr double kWeakening = 1e-3;  ///< cells of sliding over which friction falls from that at rest
 constexpr double kAtRest = 1e-6;     ///< cells: what slides by less in a step is at rest, and what is this near adheres
 constexpr double kPushOut = 2e-4;    ///< cells a step at most that a point inside a body is moved out
-constexpr double kPushOutPart = 0.1;  ///< of its depth
+constexpr double kPushOutPart = 0.1;  ///< part of its depth
 
 Vec3 along_surface(const Vec3& velocity, const Vec3& normal) { return velocity - velocity.dot(normal) * normal; }
 
@@ -59,7 +59,7 @@ PointContact::Contact PointContact::recall(const ContactPoint& found, const Poin
   const FrictionLaw& law = laws_now_[found.law];
   Contact contact;
   contact.found = &found;
-  // What comes under a surface from beside it, or starts there, keeps the overlap that it came with.
+  // Keeps the overlap of what comes under a surface from beside it, or starts there.
   const double known = memory != nullptr && !point.at_edge ? memory->overlap : found.gap;
   contact.overlap = std::min(std::max(known, found.gap), 0.0);
   contact.gap = found.gap - contact.overlap;
@@ -157,7 +157,7 @@ void PointContact::momentum_updated(StepContext& context) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     PointSolver::Point& point = points[i];
     Contact& contact = contacts_[i];
-    // What an impulse does to a free body is counted with the mean velocity, as what it does to the material.
+    // Counts the work of an impulse on a free body with the mean velocity, as that on the material.
     const Vec3 mean = point.motion != nullptr ? point.motion->mean_velocity_at(point.place) : point.velocity;
     if (point.motion != nullptr) point.velocity = point.motion->velocity_at(point.place);
     const Vec3 seen = solver_.velocity_at(point), carried = solver_.carried_at(point);
@@ -178,7 +178,7 @@ void PointContact::momentum_updated(StepContext& context) {
                    friction, context.dt);
     }
     const Vec3 along = along_surface(slip, point.normal);
-    // What has come to rest has friction at rest again.
+    // Material that has come to rest has friction at rest again.
     const double slid = along.norm() * context.dt;
     contact.slid = slid < kAtRest * cell_ ? 0.0 : contact.slid + slid;
     memory_.add({PointMemory::id_of(*contact.found), point.impulse / context.dt, along, contact.slid, contact.overlap,

@@ -166,7 +166,7 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
   const int owner = fields_[job.field]->first_owner + job.owner;
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     const ParticleSet& set = sets_[s];
-    const auto clear = [&](std::uint32_t first, std::uint32_t last) {  // of groups
+    const auto clear = [&](std::uint32_t first, std::uint32_t last) {  // true if groups are out of reach
       const int begin = static_cast<int>(set.group[first]), end = static_cast<int>(set.group[last]);
       return end - begin >= kWorthALook && !near(body, set, begin, end, band);
     };

@@ -164,7 +164,7 @@ void PointSolver::sweep_prescribed() {
   // Cubic splines reach so far that the nodes beyond edges may belong to two blocks of one colour.
   const int threads = any_at_edge_ && shape_ == ShapeKind::bspline3 ? 1 : threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
-  Progress all[2];  // of this sweep, and of the next
+  Progress all[2];  // progress of this sweep, and of the next
 #pragma omp parallel num_threads(threads)
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const bool back = sweep % 2 != 0;

@@ -8,12 +8,12 @@
 namespace mpm {
 namespace {
 
-/// Of the parts of a surface (summing to 1) that face along each of three directions, the largest is a plate's when it
-/// exceeds the next by this: a rectangle of 1 to 2 is one, a square is not.
+/// Excess by which a surface is a plate's: of its parts (summing to 1) that face along each of three directions, the
+/// largest exceeds the next by this. A rectangle of 1 to 2 is one, a square is not.
 constexpr double kPlate = 0.25;
-constexpr double kAsThin = 0.5;           ///< of the largest part: a direction that a round tool is as thin along
+constexpr double kAsThin = 0.5;           ///< part of the largest part: a direction that a round tool is as thin along
 constexpr double kTurned = 0.8660254038;  ///< cosine of 30 degrees
-constexpr double kLeastStride = 1e-3;     ///< of a line that is traced: a sheet thinner than that may be missed
+constexpr double kLeastStride = 1e-3;     ///< part of a line that is traced: a sheet thinner than that may be missed
 
 constexpr double kThinCells = 3.0 * (1.0 - 1e-9);  ///< a body of just three cells is not thin for round-off
 constexpr double kOpposite = 1.5, kBefore = 0.1;   ///< thicknesses into the body, to beyond it, and out of it
@@ -97,7 +97,7 @@ void ThinTool::find_directions(GeometryKind geometry) {
   for (int i = 0; i < 3; ++i) {
     if (part[i] > kAsThin * part[2]) possible_ += direction.col(i) * direction.col(i).transpose();
   }
-  // Of a rod along z, or a wire along y in a plane, z or x.
+  // Direction z or x, for a rod along z or a wire along y in a plane.
   const Vec3 up = possible_ * Vec3::UnitZ();
   across_ = (up.norm() > 0.5 ? up : Vec3(possible_ * Vec3::UnitX())).normalized();
 }

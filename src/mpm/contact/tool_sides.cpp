@@ -10,8 +10,8 @@ namespace {
 
 /// A particle this near to a tool's surface goes by it: shape functions of both sides meet no farther out [cells].
 constexpr double kBand = 3.5;
-constexpr double kTravel = 0.25;  ///< of a cell, between two looks at the sides
-/// Of half a particle's box: a centre nearer to the surface than this, or in the tool, keeps its side.
+constexpr double kTravel = 0.25;  ///< part of a cell between two looks at the sides
+/// Part of half a particle's box: a centre nearer to the surface than this, or in the tool, keeps its side.
 constexpr double kPressed = 0.5;
 /// Particles that give to the same node as one in the band, and how far they may have left their block [cells].
 constexpr double kReach = 6.0;
@@ -86,7 +86,7 @@ const ThinTool* ToolSides::find(const RigidBody& body) const {
   return found == tools_.end() ? nullptr : &*found;
 }
 
-// What others do to one side alone is shared after them; nothing has been done to the momentum before.
+// Ranks after those who act on one side alone, to share that; nothing has been done to the momentum before.
 Ranks SideGlue::ranks(Hook hook) const {
   if (hook == Hook::momentum_gathered) return {Rank::side};
   if (hook == Hook::forces_gathered || hook == Hook::momentum_updated) return {Rank::side_again};
@@ -107,7 +107,7 @@ void SideGlue::momentum_updated(StepContext&) {
   share(&Grid::force);  // the acceleration
 }
 
-// How far the material near a tool moves against it in this step.
+// Finds how far the material near a tool moves against it in this step.
 void SideGlue::watch(const Grid& grid, double dt) {
   const GridLayout& layout = grid.layout;
   const double around = half_diagonal(layout);

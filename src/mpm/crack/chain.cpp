@@ -9,9 +9,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kBeside = 1e-8;      ///< of a segment
+constexpr double kBeside = 1e-8;      ///< part of a segment
 constexpr double kShallow = 1e-5;     ///< depth that is let be, of a segment
-constexpr double kPutBeside = 1e-12;  ///< of a segment
+constexpr double kPutBeside = 1e-12;  ///< part of a segment
 
 Vec2 left_of(const Vec2& direction) { return {-direction[1], direction[0]}; }
 
@@ -31,8 +31,8 @@ Vec2 displacement(const SurfaceMotion& now, const Vec2& before, bool known, doub
 /// One segment as a surface of its first or last point sees it.
 struct SegmentSeen {
   double length = 0.0;
-  double along = 0.0;  ///< of the surface's foot, outward from the point; part of the segment
-  double depth = 0.0;  ///< of the surface behind its line
+  double along = 0.0;  ///< place of the surface's foot, outward from the point; part of the segment
+  double depth = 0.0;  ///< depth of the surface behind its line
   Vec2 foot = Vec2::Zero();
   Vec2 left = Vec2::Zero();  ///< unit vector
 };

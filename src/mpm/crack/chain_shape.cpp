@@ -13,7 +13,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kSamePlace = 1e-9;      ///< of the length at hand: rounding of what was meant to be one place
+constexpr double kSamePlace = 1e-9;      ///< part of the length at hand: rounding of what was meant to be one place
 constexpr double kLongestSegment = 2.0;  ///< [cells]
 constexpr double kAlong = 0.05;          ///< [cells] between chains of which one lies along the other
 
@@ -24,10 +24,10 @@ int parts_of(double length, double part) {
   return std::max(1, static_cast<int>(std::ceil(length / part - kSamePlace)));
 }
 
-/// Whether a point on the line through a and b lies between them.
+/// True if a point on the line through a and b lies between them.
 bool lies_between(const Vec2& a, const Vec2& b, const Vec2& point) { return (point - a).dot(point - b) <= 0.0; }
 
-/// Whether segments a-b and c-e have a point in common, and one of their common points.
+/// True if segments a-b and c-e have a point in common; `common` is then one of them.
 bool have_common_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& e, Vec2& common) {
   const double of_c = double_area(a, b, c), of_e = double_area(a, b, e);
   const double of_a = double_area(c, e, a), of_b = double_area(c, e, b);
@@ -42,7 +42,7 @@ bool have_common_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& 
   return true;
 }
 
-/// Whether a chain that goes from `before` over `at` to `after` turns back onto itself.
+/// True if a chain that goes from `before` over `at` to `after` turns back onto itself.
 bool folds_back(const Vec2& before, const Vec2& at, const Vec2& after) {
   return double_area(before, at, after) == 0.0 && (before - at).dot(after - at) > 0.0;
 }
@@ -185,7 +185,7 @@ bool lies_along(const std::vector<Vec2>& points, const std::vector<Vec2>& other,
     }
     return false;
   };
-  double along = 0.0;  // of consecutive points that are near; a line that only crosses is near for twice kAlong
+  double along = 0.0;  // length of consecutive points that are near; a line that only crosses is near for twice kAlong
   bool before = near(points.front());
   for (std::size_t k = 1; k < points.size(); ++k) {
     const bool now = near(points[k]);

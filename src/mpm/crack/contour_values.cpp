@@ -23,8 +23,8 @@ ContourValues ContourValues::between(const ContourValues& a, const ContourValues
 
 namespace {
 
-constexpr double kAside = 0.05;  ///< of an edge: centres nearer to it lie on it
-constexpr double kApart = 0.2;   ///< of an edge, that two centres on it are apart at least to give a slope
+constexpr double kAside = 0.05;  ///< part of an edge: centres nearer to it lie on it
+constexpr double kApart = 0.2;   ///< part of an edge that two centres on it are apart at least to give a slope
 
 /// One side of the crack on the edge that it meets: at its face, and at the node on this side.
 struct Side {
@@ -75,7 +75,7 @@ ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, co
       !source.find(node(crossing.edge + 1), ContourField::own, after)) {
     return ContourStatus::no_material;
   }
-  // What one node has across the crack belongs to the side of the other.
+  // Material across the crack from one node belongs to the side of the other.
   const auto place = [&](int at) { return lines.place(node(at)); };
   const auto side = [&](int far, int near, const ContourValues& own, double part) {
     const bool found = source.find(node(far), ContourField::across, across);

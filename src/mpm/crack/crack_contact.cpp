@@ -12,7 +12,7 @@ constexpr int kMembers = DividedNode::kFields;
 /// Faces that lie on each other to round-off touch [cells].
 constexpr double kTouch = 1e-12;
 
-/// Whether the faces of a crack act on each other.
+/// True if the faces of a crack act on each other.
 bool meets(const Crack& crack) { return crack.felt && !crack.definition.faces.ignored; }
 
 /// On which side of a crack the material of field 3 lies.
@@ -85,7 +85,7 @@ void CrackContact::look_at_wanted(const std::vector<std::uint8_t>& wanted, doubl
   }
 }
 
-// Of pairs that do not touch with the velocities of the step's start, those that do with the velocities of its end.
+// Finds the pairs that touch with the velocities of the step's end but not with those of its start.
 void CrackContact::look_again(double dt) {
   ContactNodes::Block& found = nodes_.blocks.front();
   const double reach = kTouch * fields_.front()->layout.smallest_cell();
@@ -104,7 +104,7 @@ void CrackContact::look_again(double dt) {
   look_at_wanted(late_, dt);
 }
 
-// What laws ask for, on the blocks of the nodes of these pairs.
+// Surveys what laws ask for, on the blocks of the nodes of these pairs.
 void CrackContact::survey(const std::vector<std::uint8_t>& wanted) {
   const ContactNodes::Block& found = nodes_.blocks.front();
   for (std::size_t f = 0; f < fields_.size(); ++f) marks_[f].assign(fields_[f]->blocks.size(), 0);

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kRoom = 0.25;  ///< for a chain to move between two sorts [cells]
 
-constexpr double kSlack = 1e-6;  ///< of the extent of a particle [cells]
+constexpr double kSlack = 1e-6;  ///< slack of the extent of a particle [cells]
 
-/// How far beyond its centre a particle's function begins to be that of a point along an axis [cells]: nodes farther
-/// than a cell beyond that get nothing.
+/// Distance beyond its centre at which a particle's function begins to be that of a point along an axis [cells]: nodes
+/// farther than a cell beyond that get nothing.
 double extent(const ParticleSet& set, const GridLayout& layout, ShapeKind shape, std::size_t p, std::size_t axis) {
   switch (shape) {
     case ShapeKind::dirac:
@@ -200,7 +200,7 @@ int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, con
   return slot;
 }
 
-// Of the fields of a node, that of what lies beyond these cracks; an empty one becomes it.
+// Takes the field of a node for what lies beyond these cracks; an empty one becomes it.
 int CrackFields::take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals) {
   if (between.count == 2) {
     if (node.ref[3].block >= 0 && (node.both[0].crack < 0 || node.both == between.across)) {

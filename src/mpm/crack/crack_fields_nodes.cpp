@@ -1,4 +1,4 @@
-// Which nodes, and which of their fields, material near cracks has: what the chains, tractions and tips ask for.
+// Nodes, and their fields, that material near cracks has: for the chains, tractions and tips.
 #include <algorithm>
 #include <cmath>
 

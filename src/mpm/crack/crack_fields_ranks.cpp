@@ -28,7 +28,7 @@ struct SentNode {
   std::int32_t single[2][2], both[2][2];
 };
 
-/// What one rank has found across one crack at a node.
+/// Label that one rank has found across one crack at a node.
 struct Label {
   std::uint64_t found;
   int field;  ///< there
@@ -36,7 +36,7 @@ struct Label {
   Vec2 normal;
 };
 
-/// What all ranks have found at a node.
+/// Labels that all ranks have found at a node.
 struct Labels {
   Vec2 place;
   std::vector<Label> single;

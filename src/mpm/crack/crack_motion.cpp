@@ -5,7 +5,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kLargestMove = 0.5;  // of a cell
+constexpr double kLargestMove = 0.5;  // part of a cell
 
 Vec2 in_plane(const NodalField& field, NodeRef ref) {
   return {field.at(ref.block, 0, ref.node), field.at(ref.block, 1, ref.node)};

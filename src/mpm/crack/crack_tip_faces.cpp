@@ -1,4 +1,4 @@
-// What faces inside a tip's contour add to its J: CrackTips gathers them from chains, laws and nodal values.
+// Terms that faces inside a tip's contour add to its J: CrackTips gathers them from chains, laws and nodal values.
 #include <algorithm>
 
 #include "mpm/crack/chain.hpp"
@@ -45,7 +45,7 @@ void CrackTips::add_faces(const CrackTip& tip, const JForm& form, JResult& resul
   const double behind = work_at(before) == 0.0 ? work_at(next) : work_at(before);  // the zone may end in between
   work_.push_back({crossing.place, (1.0 - along) * behind + along * work_at(next)});
   for (; next >= 0 && next < chain.size(); next += step) work_.push_back({chain.points()[next].place, work_at(next)});
-  // Where the zone ends inside the contour, its last point stands for it.
+  // Last point stands for a zone that ends inside the contour.
   const auto first = std::find_if(work_.begin(), work_.end(), [](const FaceWork& one) { return one.work != 0.0; });
   work_.erase(work_.begin(), first);
   result.faces_work = traction_work(form, work_) + friction_at(tip, form);

@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kClosed = 1e-3;  ///< of the slip, an opening that is none
+constexpr double kClosed = 1e-3;  ///< part of the slip, an opening that is none
 constexpr int kMoment = 2;        ///< cells around the tip where particles have the first moment of energy wrong
 
 GridLines lines_of(const GridLayout& layout) {
@@ -242,7 +242,7 @@ void CrackTips::split(CrackTip& tip) {
     friction += std::sqrt(2.0 / kPi) * sample.shear * 2.0 * (far - close);
   }
   tip.k.two -= std::copysign(std::min(friction, std::abs(tip.k.two)), tip.k.two);
-  // Of closed faces the integral's K_I means nothing; whether they are is known to a part of the slip.
+  // K_I of closed faces means nothing; whether they are is known to a part of the slip.
   if (tip.opening.normal <= kClosed * std::abs(tip.opening.shear)) tip.k.one = 0.0;
 }
 

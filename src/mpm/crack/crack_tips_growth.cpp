@@ -10,8 +10,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kBeyond = 0.25;       ///< of a cell, ahead of growth and beside it, where other cracks are seen
-constexpr double kLongestPart = 0.75;  ///< of a growth, which growth_points() divides above that [cells]
+constexpr double kBeyond = 0.25;       ///< part of a cell, ahead of growth and beside it, where other cracks are seen
+constexpr double kLongestPart = 0.75;  ///< part of a growth, which growth_points() divides above that [cells]
 
 /// Segments at an end of a line that are `length` long together.
 int segments_at_end(const std::vector<Vec2>& line, int end, double length) {
@@ -101,7 +101,7 @@ CrackTips::Way CrackTips::find_way(const CrackTip& tip, const Vec2& direction) c
   Way way;
   way.points = growth_points(place, direction, settings_.length, cells);
   const Vec2 seen = way.points.back() + kBeyond * cell_along(direction, cells) * direction;
-  double nearest = 2.0;  // of parts of the way
+  double nearest = 2.0;  // meeting nearest so far, in parts of the way
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     if (!cracks_[c].felt || !divide_one_body(tip.crack, static_cast<int>(c))) continue;
     const bool own = static_cast<int>(c) == tip.crack;

@@ -40,7 +40,7 @@ double CrackTractions::area(int crack, int point) const {
   return chain.tangent_area(point).norm() * across(crack, chain.points()[point].place[0]);
 }
 
-// Of faces at that radius [m].
+// Thickness of faces at that radius [m].
 double CrackTractions::across(int crack, double radius) const {
   const double thickness = cracks_[crack].definition.thickness;
   return axisymmetric(geometry_) ? kTurn * radius : thickness > 0.0 ? thickness : across_;
@@ -79,7 +79,7 @@ void CrackTractions::find_shares(int crack, const Vec2& place, const Vec2& from,
   for (Share& share : shares) share.part /= sum;
 }
 
-// Of both sides of a point; false where one of them has no nodes.
+// Finds the shares of both sides of a point; false if one of them has no nodes.
 template <class Mass>
 bool CrackTractions::find_shares(int crack, int point, Mass&& mass) {
   const Chain& chain = cracks_[crack].chain;

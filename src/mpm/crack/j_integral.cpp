@@ -41,7 +41,7 @@ void working_stress(const JForm& form, const ContourValues& values, double (&str
   }
 }
 
-/// What the ring adds to the area, by area in the plane (crack reference 4.6). In undeformed coordinates
+/// Term that the ring adds to the area, by area in the plane (crack reference 4.6). In undeformed coordinates
 /// P dA_0 = (r / R) sigma F^-T dA and P_hoop dA_0 = sigma_hoop dA.
 Vec2 ring_density(const JForm& form, const AreaSample& sample) {
   const ContourValues& values = sample.values;

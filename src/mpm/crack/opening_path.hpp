@@ -15,7 +15,7 @@ struct OpeningPath {
   FaceOpening at(double s) const {
     return {from.normal + s * (to.normal - from.normal), from.shear + s * (to.shear - from.shear)};
   }
-  /// Where it leaves the ellipse with these half axes [m]; `to` lies outside, `from` inside or on it.
+  /// Place where it leaves the ellipse with these half axes [m]; `to` lies outside, `from` inside or on it.
   FaceOpening leaves(double normal, double shear) const {
     if (!(normal > 0.0 && shear > 0.0)) return from;
     const double p[2] = {from.normal / normal, from.shear / shear};
@@ -28,7 +28,7 @@ struct OpeningPath {
   }
 };
 
-/// Of tractions that change linearly from a to b while the opening goes from `from` to `to` [J/m^2].
+/// Work of tractions that change linearly from a to b while the opening goes from `from` to `to` [J/m^2].
 inline double traction_work(const Traction& a, const FaceOpening& from, const Traction& b, const FaceOpening& to) {
   return 0.5 * (a.normal + b.normal) * (to.normal - from.normal) + 0.5 * (a.shear + b.shear) * (to.shear - from.shear);
 }

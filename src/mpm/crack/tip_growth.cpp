@@ -35,7 +35,7 @@ bool criterion_sets_speed(FractureCriterion criterion) {
 
 StressIntensity opening_intensity(const StressIntensity& k) { return {std::max(k.one, 0.0), k.two}; }
 
-/// Of the criteria that compare a measure with the material's, and remember nothing.
+/// True if a criterion is exceeded, of those that compare a measure with the material's and remember nothing.
 bool criterion_exceeded(FractureCriterion criterion, const TipState& tip, const TipRules& rules) {
   const FractureConstants& constants = rules.constants;
   const StressIntensity k = opening_intensity(tip.k);
@@ -153,7 +153,7 @@ GrowthDecision TipGrowth::judge(const GrowthRule& rule, const TipState& tip, con
     } else {
       judge_balance(tip, rules, decision);
     }
-    if (!decision.grows) due_ = -kInfinity;  // what was missed while it rested is not made good
+    if (!decision.grows) due_ = -kInfinity;  // forgets what was missed while it rested
   } else if (rule.criterion != FractureCriterion::opening && !tip.j) {
     decision.lacks_j = true;
     decision.reason = "J could not be found";

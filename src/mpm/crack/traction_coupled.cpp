@@ -29,7 +29,7 @@ void TractionLaw::check_coupled() const {
   }
 }
 
-// Of the undamaged stiffness; `damage`: lambda_w.
+// Part of the undamaged stiffness; `damage`: lambda_w.
 double TractionLaw::coupled_factor(double damage) const {
   const double elastic = curve_[0].elastic() / curve_[0].opening();
   if (damage <= elastic) return 1.0;

@@ -11,7 +11,7 @@ namespace mpm {
 namespace {
 
 constexpr double kLeastDecay = 1e-3;      ///< below it the exponential is a straight line but for round-off
-constexpr double kLeastSoftening = 1e-9;  ///< of a trilinear law's secant from its first corner to its second
+constexpr double kLeastSoftening = 1e-9;  ///< part of a trilinear law's secant from its first corner to its second
 constexpr int kMostNewtonSteps = 100;
 
 void expect_positive(double number, const char* what, const char* unit) {

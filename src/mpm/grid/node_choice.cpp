@@ -6,7 +6,7 @@ namespace mpm {
 
 namespace {
 
-/// Of a tile's node: which of the neighbours it lies in, and its place there.
+/// Neighbour that a tile's node lies in, and its place there.
 NodeChoice::Node place_in_tile(int dim, int tile_node) {
   int neighbour = 0, local = 0, neighbour_stride = 1, local_stride = 1;
   for (int k = dim - 1; k >= 0; --k, tile_node /= NodeChoice::kEdge) {

@@ -22,9 +22,9 @@ constexpr double kSettled = 3e-3;   ///< change of all stresses in a sweep, over
 constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
 constexpr double kHeld = 6.0;       ///< pressure on a tool over rho (h / dt)^2, at the most
 constexpr int kWholeSweeps = 2;     ///< that take all blocks, whether they need it or not
-constexpr double kQuiet = 0.1;      ///< of a block's share of what is left to settle: of less it is not swept again
-constexpr double kKept = 0.9;       ///< of the sweeps of the step before, at the least
-constexpr double kLightest = 1e-6;  ///< of a cell full of soil: what is added to a node's mass in the solve
+constexpr double kQuiet = 0.1;      ///< part of a block's share of what is left to settle: with less it is not swept
+constexpr double kKept = 0.9;       ///< part of the sweeps of the step before, at the least
+constexpr double kLightest = 1e-6;  ///< part of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
 class ImplicitStep final : public Stage, public ContactReporter {
@@ -107,7 +107,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     list.push_back(hoops_);
   }
   void energies(EnergyReport& report) const override {
-    report.leave_open();  // of the change of velocity particles lose a part to the grid
+    report.leave_open();  // particles lose a part of the change of velocity to the grid
     for (const ContactLedger& ledger : tools_.ledgers()) ledger.energies(report);
     walls_.energies(report);
     report.add("implicit_step", NamedEnergy::Kind::dissipated, taken_);
@@ -233,7 +233,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     change_ = 0.0;
     changes_.assign(grid_.blocks.size(), {0.0, 0.0});
     stirred_.assign(grid_.blocks.size(), 1);
-    mpm_kernel::SweepChange sum{0.0, 0.0};  // of the last sweep
+    mpm_kernel::SweepChange sum{0.0, 0.0};  // change in the last sweep
     bool settled = false, cut = false;
     restart_.begin();
     pressed_.clear();
@@ -318,7 +318,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     if (modulus_ < kOwn * cells_.modulus()) load_ = std::max(load_, tools_.pressure().mean / modulus_);
   }
 
-  /// What a step did in a block beside moving the soil.
+  /// Result of a step in a block beside moving the soil.
   struct Deeds {
     typename WallRows<T>::Impulses held{};  ///< given by walls that hold nodes [N s]
     Vec3 light = Vec3::Zero();              ///< as light_ [N s]
@@ -338,7 +338,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         const double start = grid_.momentum.at(block, k, n) / mass;
         double& force = grid_.force.at(block, k, n);
         const std::uint8_t holder = soil_grid_.holder(number, axis);
-        if (holder == SoilGrid::kAtRest || holder == SoilGrid::kPrescribed) {  // which stops it from there
+        if (holder == SoilGrid::kAtRest || holder == SoilGrid::kPrescribed) {  // holder stops it from there
           const double change = velocity - start;
           if (holder == SoilGrid::kPrescribed) deeds.taken += 0.5 * mass * change * change;
           velocity += force / mass;
@@ -352,7 +352,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
         } else {
           deeds.light[axis] -= lightest_ * (settings_.loads ? found - start : by_sweeps);
         }
-        // Of the work of all forces on the velocity of the end, what does not become motion.
+        // Part of the work of all forces on the velocity of the end that does not become motion.
         const double change = found - start;
         deeds.taken += 0.5 * mass * change * change;
         velocity = found;
@@ -375,13 +375,13 @@ class ImplicitStep final : public Stage, public ContactReporter {
   std::vector<Node> before_;  ///< as the last pair of sweeps began with them
   MomentumRestart restart_;
   double lightest_ = 0.0;        ///< [kg]
-  ImpulseAccount light_;         ///< what light nodes were not given
+  ImpulseAccount light_;         ///< impulse that light nodes were not given
   ImpulseAccount axis_, hoops_;  ///< along r, as boundary/axis.hpp has them
   double taken_ = 0.0;           ///< by the step itself [J]
-  bool sorts_ = false;           ///< whether a particle was put back beyond the block that it is sorted into
-  std::vector<mpm_kernel::SweepChange> changes_;  ///< of each block, in its last sweep
-  std::vector<std::uint8_t> stirred_;             ///< of each block, whether the next sweep takes it
-  std::vector<Deeds> deeds_;                      ///< of each block
+  bool sorts_ = false;           ///< true if a particle was put back beyond the block that it is sorted into
+  std::vector<mpm_kernel::SweepChange> changes_;  ///< change of each block in its last sweep
+  std::vector<std::uint8_t> stirred_;             ///< for each block, 1 if the next sweep takes it
+  std::vector<Deeds> deeds_;                      ///< deeds of each block
   std::vector<double> pressed_;                   ///< ToolRows::pressed() after each sweep of a step [N s]
   std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for
   std::int32_t sweeps_ = 0;

@@ -9,13 +9,13 @@ namespace mpm {
 namespace {
 
 const double kFlat = std::cos(kPi / 180.0);
-constexpr double kFine = 1.0 / 3.0;  // of the spacing: edges of the triangles that are gathered
+constexpr double kFine = 1.0 / 3.0;  // part of the spacing: edges of the triangles that are gathered
 
 /// Triangles that meet smoothly, and how.
 struct Patches {
-  std::vector<std::array<int, 3>> mates;  ///< of each triangle, across the side from corner i to the next; -1 for none
-  std::vector<int> patch;                 ///< of each triangle
-  std::vector<double> depth;              ///< of each triangle, as of a Piece [m]
+  std::vector<std::array<int, 3>> mates;  ///< mates of each triangle, across the side from corner i on; -1 for none
+  std::vector<int> patch;                 ///< patch of each triangle
+  std::vector<double> depth;              ///< depth of each triangle, as of a Piece [m]
   std::vector<std::vector<int>> members;  ///< triangles of each patch
 
   explicit Patches(const Faces& faces)
@@ -27,7 +27,7 @@ struct Patches {
   }
 
  private:
-  /// Where several bodies share an edge, sides are paired that are next to each other in the list, as those of one body
+  /// Pairs sides that are next to each other in the list where several bodies share an edge, as those of one body
   /// are.
   void pair_sides(const Faces& faces) {
     std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> open;  // triangle and side

@@ -1,4 +1,4 @@
-// What the points on flat outlines and those on faces in space have in common: the drawn triangles, and what is asked
+// Parts shared by the points on flat outlines and those on faces in space: the drawn triangles, and what is asked
 // about places on them.
 #pragma once
 
@@ -16,11 +16,11 @@ namespace mpm {
 
 inline const double kSmooth = std::cos(kPi / 6.0);  // faces that turn less are one
 inline constexpr double kNarrow = 6.0;              // spacings
-inline constexpr double kProbe = 0.5;               // of the spacing: how far before an edge the surface is looked at
+inline constexpr double kProbe = 0.5;               // spacings: how far before an edge the surface is looked at
 inline constexpr double kSameFace = 0.5;            // cosine between normals of a face as drawn and as it is
 // Points at the border of two counts fall on the same side whatever the rounding.
 inline constexpr double kRound = 1e-9;
-// Of the spacing: far above the rounding of distances, and too little to matter for contact.
+// Part of the spacing: far above the rounding of distances, and too little to matter for contact.
 inline constexpr double kHidden = 1e-6;
 
 using Corners = std::array<Vec3, 3>;
@@ -39,7 +39,7 @@ class Sampler {
 
   const SampleRules& rules() const { return rules_; }
 
-  /// Whether a place of the drawn surface is inside the body, other than by the depth of a chord below its arc. Above
+  /// True if a place of the drawn surface is inside the body, other than by the depth of a chord below its arc. Above
   /// the chord its own arc is the nearest, but beside another part; there the place counts that the arc has below it.
   bool hidden(const Vec3& place, const Vec3& normal, double depth) const {
     const double little = kHidden * rules_.spacing;
@@ -51,7 +51,7 @@ class Sampler {
     return surface_.at(place - here.distance * here.normal).distance < -little;
   }
 
-  /// Whether two faces end where they meet. Of an endless body drawn with an end one goes on, and an edge inside
+  /// True if two faces end where they meet. Of an endless body drawn with an end one goes on, and an edge inside
   /// another part is none: only before an edge of the surface the nearest point lies across both faces.
   bool is_edge(const Vec3& place, const Vec3& normal, const Vec3& other) const {
     const Vec3 across = (normal + other).normalized();

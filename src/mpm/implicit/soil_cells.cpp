@@ -43,7 +43,7 @@ const CellOrder& cell_order(int dim) {
   return dim == 3 ? kSpace : kPlane;
 }
 
-/// Of the cells of a soil in a block.
+/// Number of groups of the cells of a soil in a block.
 template <class T>
 int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
   const CellOrder& order = cell_order(dim);
@@ -56,7 +56,7 @@ int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
   return groups;
 }
 
-/// What all cells of a group have alike, before the first.
+/// Fills what all cells of a group have alike, before the first.
 template <class T>
 void begin_group(mpm_kernel::SoilGroup<T>& group, const ImplicitSoil& soil) {
   group.mask = -1;

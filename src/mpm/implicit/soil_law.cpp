@@ -10,7 +10,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kNoLimit = 1e30;  ///< of tension [Pa]
+constexpr double kNoLimit = 1e30;  ///< limit of tension [Pa]
 
 /// One of the laws that implicit steps have, as ImplicitSoil sees it.
 class Reader {

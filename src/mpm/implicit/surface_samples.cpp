@@ -15,7 +15,7 @@ namespace {
 /// A piece of the outline in y = 0, the body on its right.
 struct Piece {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero(), along = Vec3::Zero();
-  int from_id = -1, to_id = -1;                      ///< of the point; equal at joints, -1 where the outline is cut off
+  int from_id = -1, to_id = -1;                      ///< ids of ends, equal at joints; -1 where the outline is cut off
   int before = -1, after = -1;                       ///< pieces that go on smoothly
   bool corner_before = false, corner_after = false;  ///< convex
   double depth = 0.0;  ///< that the surface may be away from the piece, for its neighbours turn [m]
@@ -107,7 +107,7 @@ void sample_chain(const Sampler& sampler, const std::vector<const Piece*>& chain
     return !narrow && (place - corner).norm() < clearance * (1.0 - kRound);
   };
   std::size_t i = 0;
-  double start = 0.0;  // of piece i along the chain
+  double start = 0.0;  // start of piece i along the chain
   for (int k = 0; k < count; ++k) {
     const double along = before + (k + 0.5) / count * used;
     while (i + 1 < chain.size() && along >= start + chain[i]->length()) start += chain[i++]->length();

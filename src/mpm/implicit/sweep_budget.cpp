@@ -6,13 +6,13 @@
 namespace mpm {
 namespace {
 
-constexpr double kForget = 0.1;        ///< of what was foreseen too long, a time
-constexpr double kMostAtOnce = 2.0;    ///< what was foreseen grows so much at once: a machine that was away comes back
+constexpr double kForget = 0.1;        ///< part of what was foreseen too long, a time
+constexpr double kMostAtOnce = 2.0;    ///< growth at once of what was foreseen: a machine that was away comes back
 constexpr int kKnown = 20;             ///< sync periods until least() is known; the first ones fill memory
 constexpr double kRecent = 0.05;       ///< weight of the last sync period in least(), when many are known
 constexpr double kOfChange = 0.9;      ///< error of the force over its change, with
 constexpr double kUsual = 1000.0;      ///< sweeps a second of simulated time
-constexpr double kOfLargest = 0.1;     ///< of the largest force met: errors of less are measured by that
+constexpr double kOfLargest = 0.1;     ///< part of the largest force met: errors of less are measured by that
 constexpr double kLastSteps = 0.2;     ///< weight of the last step in the error
 constexpr std::size_t kOfPeriod = 64;  ///< cut steps of a sync period that have their place from the start
 

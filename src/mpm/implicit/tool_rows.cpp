@@ -13,9 +13,9 @@ namespace {
 constexpr double kApart = 0.5;               ///< cells between points
 constexpr double kClearance = 0.6;           ///< cells from a convex edge
 constexpr double kShort = 1.5, kLong = 6.0;  ///< cells of travel (pressure_to_resolve())
-constexpr double kPresent = 0.2;             ///< of the soil's density, from which on a point is in contact
+constexpr double kPresent = 0.2;             ///< part of the soil's density, from which on a point is in contact
 
-constexpr double kAnswers = 1e-6;  ///< of a row's largest answer to an impulse, that along its normal at the least
+constexpr double kAnswers = 1e-6;  ///< part of a row's largest answer to an impulse, that along its normal at the least
 
 constexpr int kRoomForHeld = 4;  ///< parts of a point's impulse that walls take, of all points in the mean
 
@@ -183,7 +183,7 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   const FreeMotion* motion = of.free_motion();
   const Mat3 compliance = motion != nullptr ? motion->compliance_at(place.at) : Mat3(Mat3::Zero());
   const double most = own.maxCoeff() + compliance.cwiseAbs().rowwise().sum().maxCoeff();
-  // Where nothing that is free along the normal answers, an impulse would grow without end.
+  // Leaves out points where nothing that is free along the normal answers: an impulse would grow without end.
   if (!(normal.cwiseAbs2().dot(own) + normal.dot(compliance * normal) > kAnswers * most)) return false;
   row.own = static_cast<T>(most);
   row.friction = law.stick ? T(-1) : static_cast<T>(law.coefficient);
@@ -336,7 +336,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     const Place& place = places_[i];
     const RigidBody& body = *bodies_[place.body];
     const Vec3 impulse = vector_of(row.impulse), normal = vector_of(row.normal);
-    // Of a free body the mean of the step, with which its own energy changes.
+    // Mean of the step for a free body, with which its own energy changes.
     const FreeMotion* motion = free_.motion(place.body);
     const Vec3 velocity =
         motion != nullptr ? motion->mean_velocity_at(place.at) : Vec3(vector_of(row.velocity) + place.prescribed);
@@ -348,7 +348,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     }
     ContactLedger& ledger = ledgers_[place.body];
     ledger.give({impulse, normal, place.at - body.pose().position, velocity, slip});
-    // What rows leave undone along the normal.
+    // Loss that rows leave undone along the normal.
     ledger.add_loss({0.0, -impulse.dot(normal) * slip.dot(normal)});
     free_.take(place.body, impulse, place.at, normal, Vec3::Zero());
     Kept& kept = kept_[place.body];

@@ -49,7 +49,7 @@ namespace {
 #endif
 #define MPM_KERNELS(name) \
   { MPM_PLAIN(name), MPM_AVX2(name), MPM_AVX512(name) }
-/// Of a shape function, by instruction set: its passes and, of a product along the axes, what makes its weights.
+/// Tables of a shape function, by instruction set: its passes and, of a product along the axes, what makes its weights.
 struct ShapeTables {
   const mpm_kernel::PassFamily& (*passes[3])();
   const mpm_kernel::ShapeFamily& (*shape[3])();

@@ -81,7 +81,7 @@ double NorSand::largest_flow_stiffness() const {
     for (int i = 0; i < 3; ++i) s[i] = 2.0 / 3.0 * std::cos(angle - i * third);
     const double product = s[0] * s[1] * s[2], squared = lode_mean_ + 13.5 * lode_half_ * product;
     const double lode = 1.0 / std::sqrt(std::sqrt(squared));
-    PrincipalValues normal;  // of B over s: 1 / lode = squared^(1/4)
+    PrincipalValues normal;  // derivative of B over s: 1 / lode = squared^(1/4)
     for (int i = 0; i < 3; ++i) {
       const double other = s[(i + 1) % 3] * s[(i + 2) % 3] + 1.0 / 9.0;  // its mean is -1/9
       normal[i] = 1.5 * s[i] / lode + 0.25 * 13.5 * lode_half_ * std::pow(lode, 3.0) * (other - 4.5 * product * s[i]);

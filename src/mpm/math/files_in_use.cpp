@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;  // of a file that is not there
+  std::error_code ignored;  // error for a file that is not there
   return a == b || fs::equivalent(a, b, ignored);
 }
 

@@ -11,7 +11,7 @@ namespace mpm {
 
 std::string refused_output(const std::string& path) {
   using Type = std::filesystem::file_type;
-  std::error_code ignored;  // what cannot be looked at cannot be opened either, which says why
+  std::error_code ignored;  // error for what cannot be looked at; it cannot be opened either, which says why
   switch (std::filesystem::status(path, ignored).type()) {
     case Type::none:
     case Type::not_found:

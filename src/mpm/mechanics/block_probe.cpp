@@ -81,7 +81,7 @@ class KernelProbe final : public BlockProbe {
   std::vector<ParticleSet>& sets_;
   const std::vector<Law>& laws_;
   int dim_, nodes_;
-  std::vector<int> places_;  ///< of the 3^dim blocks that stand in for the grid
+  std::vector<int> places_;  ///< places of the 3^dim blocks that stand in for the grid
   std::vector<double> mass_, momentum_, force_;
   std::vector<mpm_kernel::SetView<T>> views_;
 };

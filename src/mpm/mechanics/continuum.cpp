@@ -212,7 +212,7 @@ class Continuum final : public Mechanics {
       passes_.each_block(move_block);
     }
     const std::uint64_t generation =
-        passes_.fields().front().grid.blocks.generation();  // of all: they are rebuilt together
+        passes_.fields().front().grid.blocks.generation();  // generation of all: they are rebuilt together
     if (generation_ != generation) {
       generation_ = generation;
       parts_when_sorted_ = parts;
@@ -271,7 +271,7 @@ class Continuum final : public Mechanics {
     });
   }
 
-  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes of every field.
+  // Finds the mass-weighted mean of the particles' dilatation or mean stress at the nodes of every field.
   void find_means(bool of_stress) {
     passes_.each_field([&](Field& field) {
       field.mean.resize(field.grid.blocks.size());
@@ -293,7 +293,7 @@ class Continuum final : public Mechanics {
 
   // Domains have grown, and particles with them moved: will the next step's tiles hold them?
   void end_step() {
-    for (Field& field : passes_.fields()) field.grid.loose.swap(field.loose);  // of patches all are
+    for (Field& field : passes_.fields()) field.grid.loose.swap(field.loose);  // patches are always loose
     const bool sorts = must_sort_ || (mixed_.too_much() && settings_.halo == nullptr);
     if (kernels_.outgrown == nullptr || sorts) return;
     std::atomic<bool> outgrown{false};
@@ -328,7 +328,7 @@ class Continuum final : public Mechanics {
   Increments<T> increments_;
   std::int32_t turn_ = 0;                         ///< steps since one in which the fraction of FLIP held
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]
-  std::uint64_t generation_ = 0;                  ///< of the blocks that parts_when_sorted_ was counted with
+  std::uint64_t generation_ = 0;                  ///< generation of the blocks that parts_when_sorted_ was counted with
   int parts_when_sorted_ = 0;
 };
 

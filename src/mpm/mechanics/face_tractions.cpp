@@ -85,7 +85,7 @@ void FaceTractions::spread(int set, int p, const PlacedDomain::Vector& at, const
 
 void FaceTractions::forces_gathered(StepContext& context) {
   const std::uint64_t generation =
-      context.fields.front()->blocks.generation();  // of all fields: they are rebuilt together
+      context.fields.front()->blocks.generation();  // generation of all fields: they are rebuilt together
   if (generation_ != generation || any_chooses_) {
     look_for_particles();
     generation_ = generation;

@@ -28,9 +28,9 @@ struct FieldAtWork {
   mpm_kernel::GridView view{};
   std::vector<mpm_kernel::SetView<T>> views;
   std::vector<int> set;                  ///< index of each
-  std::vector<std::uint8_t> loose;       ///< of each owner, after the motion
+  std::vector<std::uint8_t> loose;       ///< marks of each owner, after the motion
   std::vector<mpm_kernel::Moved> taken;  ///< by damping and PIC, of each owner
-  NodalField mean;                       ///< of dilatation or mean stress, where these are averaged
+  NodalField mean;                       ///< mean of dilatation or stress, where these are averaged
 };
 
 template <class T>
@@ -47,7 +47,7 @@ class FieldPasses {
 
   std::vector<Field>& fields() { return fields_; }
   const std::vector<Field>& fields() const { return fields_; }
-  /// Where particles choose a field at every node.
+  /// Field of patches, where particles choose a field at every node.
   std::optional<Field>& patches() { return patches_; }
 
   // Particles that choose a field at every node have nodes of their own, as if they were a field.
@@ -97,7 +97,7 @@ class FieldPasses {
     for (int f = 0; f < fields; ++f) halo_->end(f, values(f));
   }
 
-  // Of the fields' nodes, those that particles which choose a field read.
+  // Takes the values of the fields' nodes that particles which choose a field read.
   void take(NodalField Grid::*what) {
     if (choice_ != nullptr) choice_->take(what);
   }

@@ -107,7 +107,7 @@ class Increments {
 
  private:
   int threads_;
-  double part_ = 1.0;  ///< of the next increment that particles take over
+  double part_ = 1.0;  ///< part of the next increment that particles take over
   ChunkSums<double> works_;
 };
 

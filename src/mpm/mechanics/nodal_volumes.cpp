@@ -61,11 +61,11 @@ class NodalVolumeSurvey final : public VolumeSurvey {
   }
 
  private:
-  /// Of a set's particles, in their order; filled for those of the owners at work.
+  /// Values of a set's particles, in their order; filled for those of the owners at work.
   struct Arrays {
     PaddedArray<double> volume, start_volume;                 ///< over mass [m^3/kg]
     std::array<PaddedArray<double>, 3> moved;                 ///< displacement [m]
-    std::array<std::array<PaddedArray<double>, 3>, 3> slope;  ///< of the displacement
+    std::array<std::array<PaddedArray<double>, 3>, 3> slope;  ///< slope of the displacement
   };
 
   // number(set, component): an array.
@@ -141,7 +141,7 @@ class NodalVolumeSurvey final : public VolumeSurvey {
   const NodeChoice* choice_;
   std::vector<Arrays> arrays_;
   ScalarTransfer::Given given_;
-  std::vector<std::uint8_t> giving_;  ///< of each owner, whether its particles give to a marked block
+  std::vector<std::uint8_t> giving_;  ///< for each owner, 1 if its particles give to a marked block
 };
 
 }  // namespace

@@ -95,7 +95,7 @@ class ParticleLoads final : public Stage {
     int kind() const { return static_cast<int>(of.kind); }
 
     ParticleLoadTerm of;
-    std::vector<std::array<Function, 3>> copies;  ///< of each thread: an expression holds one evaluation at a time
+    std::vector<std::array<Function, 3>> copies;  ///< copies by thread: an expression holds one evaluation at a time
   };
   using ByKind = std::array<Vec3, kKinds>;
 
@@ -188,7 +188,7 @@ class ParticleLoads final : public Stage {
     add(nodal, fields_[field]->force, *fields_[field]);
   }
 
-  // Whether any particle has a load of this spread; then `given_` points to these loads.
+  // True if any particle has a load of this spread; then `given_` points to these loads.
   bool look_at(int spread) {
     bool any = false;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -217,8 +217,8 @@ class ParticleLoads final : public Stage {
   /// Acceleration of each set's particles by spread and axis [m/s^2].
   std::vector<std::array<std::vector<PaddedArray<double>>, kSpreads>> values_;
   ScalarTransfer::Given given_;
-  std::vector<NodalField> nodal_;                               ///< of each field, load of each node in this step [N]
-  NodalField beside_ = NodalField(dim_, nodes_of_block(dim_));  ///< of the second spread, where there are two [N]
+  std::vector<NodalField> nodal_;                               ///< load of each node in this step, for each field [N]
+  NodalField beside_ = NodalField(dim_, nodes_of_block(dim_));  ///< loads of the second spread, if there are two [N]
   std::vector<ByKind> sums_;
   FirstFault fault_;
   std::array<bool, kKinds> there_{};

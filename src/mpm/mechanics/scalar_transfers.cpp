@@ -112,7 +112,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     });
     if (!chosen(field)) return;
 
-    // What a patch takes is the sum over the fields: of the first in the array itself, of others through memory beside.
+    // Sum over the fields for a patch: of the first in the array itself, of others through memory beside.
     Grid& patches = choice_->grid();
     NodalField& own = own_[from.components() > 1];
     own.resize(patches.blocks.size());
@@ -209,13 +209,13 @@ class ScalarTransferOf final : public ScalarTransfer {
   int threads_;
   NodeChoice* choice_;
   Halo* halo_;
-  std::array<NodalField, 2> own_;  ///< of the patches, of one component and of one along each axis
-  NodalField flow_;                ///< of the patches
+  std::array<NodalField, 2> own_;  ///< values of the patches, of one component and of one along each axis
+  NodalField flow_;                ///< flow of the patches
   std::vector<std::array<PaddedArray<double>, 3>> beside_;
   mpm_kernel::GridView view_{};
   std::vector<mpm_kernel::SetView<T>> views_;
   std::vector<mpm_kernel::ParticleArrays> arrays_;
-  Marks giving_, taking_;  ///< of owners and of blocks, where only some are wanted
+  Marks giving_, taking_;  ///< marks of owners and of blocks, if only some are wanted
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFlow = 1e-12;     ///< plastic strain in a step from which on a particle flows
 constexpr double kPressure = 1e-9;  ///< pressure over the stiffness of a wave from which on it is under pressure
 
-/// How a stress is stored: in a plane xx, zz, xz, yy.
+/// Storage of a stress: in a plane xx, zz, xz, yy.
 template <class Geometry>
 struct Stored {
   static constexpr int kCount = Geometry::kDim == 3 ? 6 : 4;

@@ -9,8 +9,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kAlmostAll = 1.0 - 1e-6;  ///< of the weights: above what rounding leaves of all in single precision
-constexpr double kLeastShare = 1e-3;       ///< of a cell: less is a node beyond the domain
+constexpr double kAlmostAll = 1.0 - 1e-6;  ///< part of weights: above what rounding leaves of all in single precision
+constexpr double kLeastShare = 1e-3;       ///< part of a cell: less is a node beyond the domain
 
 /// Integral of a spline over the cells beyond the node next to its middle one, which a wall there cuts off [cells].
 double beyond_next(ShapeKind shape) {
@@ -38,7 +38,7 @@ void VolumeCorrection::make_room() {
     const auto room = [&](PaddedArray<double>& array) {
       if (array.size() != size) array.assign(size, 0.0);
     };
-    if (of.volume.size() != size) of.volume.assign(size, 1.0 / bodies_[s].density);  // which those of fluids stay
+    if (of.volume.size() != size) of.volume.assign(size, 1.0 / bodies_[s].density);  // value that those of fluids keep
     if (bodies_[s].fluid == nullptr) continue;
     for (PaddedArray<double>* array : {&of.fullness, &of.full, &of.squares}) room(*array);
     for (int k = 0; k < dimensions(geometry_); ++k) room(of.slope[k]);

@@ -156,7 +156,7 @@ Plan make_plan(const SimulationDefinition& definition, const Forecast& forecast,
   }
   std::vector<bool> used(options.size(), false);
   for (std::size_t i = 0; i < options.size() && cost_with(options, used, steps, most) > most; ++i) used[i] = true;
-  // What is not needed beside the last one is left out. The cell is the last, and then no wider than need be.
+  // Leaves out what is not needed beside the last one. The cell is the last, and then no wider than need be.
   for (std::size_t i = used.back() ? 0 : options.size(); i-- > 0;) {
     if (!used[i]) continue;
     used[i] = false;

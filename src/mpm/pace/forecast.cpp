@@ -9,7 +9,7 @@ namespace mpm::pace {
 
 namespace {
 
-constexpr int kUsualSweeps = 30;  ///< of an implicit step in the mean of blade_in_soil and wheel_in_sand
+constexpr int kUsualSweeps = 30;  ///< sweeps of an implicit step in the mean of blade_in_soil and wheel_in_sand
 
 }  // namespace
 
@@ -41,11 +41,11 @@ std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, 
 std::string duration_text(double seconds) {
   constexpr std::array<std::pair<double, const char*>, 4> kUnits{
       {{86400.0, "d"}, {3600.0, "h"}, {60.0, "min"}, {1.0, "s"}}};
-  constexpr double kAtLeast = 1.95;  // of a unit, so that "90 s" is not "1.5 min"
+  constexpr double kAtLeast = 1.95;  // least number of a unit, so that "90 s" is not "1.5 min"
   for (const auto& [unit, name] : kUnits) {
     if (seconds >= kAtLeast * unit) return fmt::format("{:.3g} {}", seconds / unit, name);
   }
-  constexpr double kRounds = 0.9995;  // what would be written as 1000 of the unit below
+  constexpr double kRounds = 0.9995;  // part of a unit that would be written as 1000 of the unit below
   if (seconds >= kRounds) return fmt::format("{:.3g} s", seconds);
   return seconds >= 1e-3 * kRounds ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} us", 1e6 * seconds);
 }

@@ -9,7 +9,7 @@ namespace mpm::pace {
 
 namespace {
 
-constexpr double kLastPart = 0.75;    ///< of the time that was reached; what follows goes on as it was from there on
+constexpr double kLastPart = 0.75;    ///< part of the time reached; what follows goes on as it was from there on
 constexpr double kLeastAwake = 0.05;  ///< part of the particles, from which on their cost can be told from a step's
 constexpr double kLooks = 40.0;       ///< at the tools in a run
 constexpr double kLeastSteps = 20.0;  ///< with and without contact, from which on their costs can be compared

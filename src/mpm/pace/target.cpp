@@ -14,7 +14,7 @@ namespace mpm::pace {
 
 namespace {
 
-constexpr std::size_t kMostRows = 16;                                  ///< of the front that a table shows
+constexpr std::size_t kMostRows = 16;                                  ///< rows of the front that a table shows
 constexpr std::array<double, 3> kImplicitSteps = {0.005, 0.01, 0.02};  ///< that there are figures for [s]
 
 bool identical(const Discretisation& a, const Discretisation& b) {
@@ -48,7 +48,7 @@ std::string percent(double part) { return fmt::format("{:.2g}", 100.0 * part); }
 
 using Indices = std::vector<std::size_t>;
 
-/// Of those with the least error, the fastest.
+/// Fastest of those with the least error.
 std::size_t most_exact(const std::vector<Candidate>& all, const Indices& among) {
   const auto error = [&](std::size_t i) { return all[i].error.total(); };
   double least = error(among.front());
@@ -60,7 +60,7 @@ std::size_t most_exact(const std::vector<Candidate>& all, const Indices& among) 
   return best;
 }
 
-/// Of the fastest, the one with the least error.
+/// Candidate with the least error among the fastest.
 std::size_t fastest(const std::vector<Candidate>& all, const Indices& among) {
   double most = 0.0;
   for (const std::size_t i : among) most = std::max(most, all[i].pace);

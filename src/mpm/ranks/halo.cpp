@@ -226,7 +226,7 @@ void Halo::plan_receiving(const Fields& fields, std::vector<Given> given, const 
 }
 
 void Halo::find_counted(Fields& fields, const std::vector<Given>& given) {
-  std::vector<std::pair<std::uint64_t, int>> lowest;  // of each block that others give to, the lowest rank that does
+  std::vector<std::pair<std::uint64_t, int>> lowest;  // lowest rank that gives to each block that others give to
   for (const Given& one : given) lowest.emplace_back(one.use.key, one.rank);
   std::sort(lowest.begin(), lowest.end());
   std::vector<std::uint64_t> to_all;  // also where nobody else gives

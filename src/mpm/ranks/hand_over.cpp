@@ -96,7 +96,7 @@ void HandOver::take_in(ParticleSet& set, Leaving& leaving, std::vector<Unpacking
     for (const Run& run : runs.back()) counts.back() += run.count;
     all += counts.back();
   }
-  std::vector<std::uint32_t>& places = leaving.left;  // of those that come; beyond the end where too few have left
+  std::vector<std::uint32_t>& places = leaving.left;  // places of those that come; beyond the end if too few have left
   for (auto place = static_cast<std::uint32_t>(set.size()); places.size() < all; ++place) places.push_back(place);
   const std::size_t size = all == 0 ? 0 : std::size_t{places[all - 1]} + 1;
   each_column(set, [&](auto& values) {
@@ -166,7 +166,7 @@ bool HandOver::is_inside(std::uint64_t key) {
 }
 
 bool HandOver::are_around(const ParticleSet& set, int begin, int end, std::uint64_t key) const {
-  constexpr double kHalf = 0.49;  // of a cell, a little less, so that round-off takes in nothing
+  constexpr double kHalf = 0.49;  // half a cell, a little less, so that round-off takes in nothing
   const std::array<int, 3> block = layout_.block(key);
   bool around = true;
   for (int k = 0; k < layout_.dim(); ++k) {
@@ -183,7 +183,7 @@ bool HandOver::are_around(const ParticleSet& set, int begin, int end, std::uint6
 void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) {
   leaving.to.assign(ranks_.size(), {});
   std::uint64_t last = ~std::uint64_t{0};
-  int owner = ranks_.rank();  // of the last one; neighbours are in the same block mostly
+  int owner = ranks_.rank();  // owner of the last one; neighbours are in the same block mostly
   const auto find_in = [&](std::uint32_t begin, std::uint32_t end, std::uint64_t was) {
     for (std::uint32_t p = begin; p < end; ++p) {
       const auto key = block_of(set, layout_, static_cast<int>(p));
@@ -223,7 +223,7 @@ void HandOver::cut(const std::vector<ParticleSet>& sets) {
 }
 
 void HandOver::divide(std::vector<ParticleSet>& sets) {
-  for (ParticleSet& set : sets) set.begin.clear();  // of particles from elsewhere, it may be that of others
+  for (ParticleSet& set : sets) set.begin.clear();  // forgets blocks, which may be others' for particles from elsewhere
   after_cut_ = 1.0;
   just_divided_ = false;
   cut(sets);

@@ -77,7 +77,7 @@ class BoxSurface final : public Surface {
 
   std::optional<SolidMoments> moments(double across) const override {
     Vec3 size = 2.0 * half_;
-    // Of a line `across` is the side of the square that is its area.
+    // Side `across` stands for a line: the square on it is the area.
     for (int i = 0; i < 3; ++i) {
       if (std::isinf(size[i])) size[i] = across;
     }

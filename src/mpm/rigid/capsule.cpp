@@ -12,8 +12,8 @@ namespace mpm {
 
 namespace {
 
-constexpr int kCapsuleMeridians = 32;  // of the display mesh
-constexpr int kEndParallels = 8;       // of each end
+constexpr int kCapsuleMeridians = 32;  // meridians of the display mesh
+constexpr int kEndParallels = 8;       // parallels of each end
 
 class CapsuleSurface final : public Surface {
  public:
@@ -77,7 +77,7 @@ class CapsuleSurface final : public Surface {
     const double straight = (in_plane_ ? 2.0 * r * depth : kPi * r2) * length;
     const double ends = in_plane_ ? kPi * r2 * depth : 4.0 / 3.0 * kPi * r2 * r;
     const double beyond = in_plane_ ? 4.0 * r / (3.0 * kPi) : 0.375 * r;
-    const double of_ends = ends * r2 / (in_plane_ ? 4.0 : 5.0);  // of a whole disc or ball about its centre
+    const double of_ends = ends * r2 / (in_plane_ ? 4.0 : 5.0);  // moment of a whole disc or ball about its centre
     const double volume = straight + ends;
     Vec3 squares = Vec3::Constant(straight * r2 / (in_plane_ ? 3.0 : 4.0) + of_ends);
     squares[axis_] = straight * length * length / 12.0 + ends * (half_ * half_ + 2.0 * half_ * beyond) + of_ends;

@@ -10,7 +10,7 @@ namespace mpm {
 
 namespace {
 
-constexpr int kCylinderSegments = 48;  // of the display mesh
+constexpr int kCylinderSegments = 48;  // segments of the display mesh
 
 class CylinderSurface final : public Surface {
  public:

@@ -33,7 +33,7 @@ std::vector<std::array<Vec2, 3>> cut_into_triangles(const Profile& profile) {
     const std::size_t n = corners.size();
     std::size_t ear = 0;
     while (ear < n && !is_ear(corners, ear)) ++ear;
-    if (ear == n) break;  // what is left has no area, but for rounding
+    if (ear == n) break;  // ends with a rest of no area, but for rounding
     triangles.push_back({corners[(ear + n - 1) % n], corners[ear], corners[(ear + 1) % n]});
     corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(ear));
   }

@@ -12,7 +12,7 @@ namespace mpm {
 namespace {
 
 constexpr int kMidpointRounds = 4;  ///< each gains a factor of a step's angle
-constexpr double kRoundOff = 1e-9;  ///< of the largest moment of inertia
+constexpr double kRoundOff = 1e-9;  ///< part of the largest moment of inertia
 
 void check(const FreeDefinition& free, const std::string& name) {
   const std::string start = fmt::format("rigid body '{}': free: ", name);
@@ -78,7 +78,7 @@ Mat3 FreeMotion::inertia_at(const Quat& orientation) const {
 }
 
 Mat3 FreeMotion::lift_of(const Mat3& inertia) const {
-  // What is prescribed is taken out: one on the diagonal, and zero in the inverse.
+  // Takes out what is prescribed: one on the diagonal, and zero in the inverse.
   Mat3 reduced = inertia;
   for (int k = 0; k < 3; ++k) {
     if (is_free(3 + k)) continue;
@@ -235,7 +235,7 @@ void FreeMotion::serialise(StateArchive& archive) {
   archive.value("wrench_work", wrench_work_);
   archive.value("drive_work", drive_work_);
   archive.value("loss", loss_);
-  // Of the last step: what is reported at a sync point is as it left them.
+  // Values of the last step: what is reported at a sync point is as it left them.
   archive.value("centre", centre_);
   archive.value("velocity", velocity_);
   archive.value("rate", rate_);

@@ -113,7 +113,7 @@ class HeightField final : public Surface {
     return point[axis] >= grid_.low[axis] && point[axis] <= grid_.high[axis];
   }
 
-  /// Of the surface above or below a point of the rectangle.
+  /// Height of the surface above or below a point of the rectangle.
   double height(const Vec3& point) const {
     const int i = cell(point, 0), j = cell(point, 1);
     const Vec3 from = corner(i, j), to = corner(i + 1, j + 1);
@@ -126,7 +126,7 @@ class HeightField final : public Surface {
     return from.z() + v * (side - from.z()) + u * (to.z() - side);
   }
 
-  /// How far a point is from a cell's column, squared.
+  /// Distance of a point from a cell's column, squared.
   double gap(const Vec3& p, int i, int j) const {
     const double x = std::max({place(0, i) - p.x(), p.x() - place(0, i + 1), 0.0});
     const double y = std::max({place(1, j) - p.y(), p.y() - place(1, j + 1), 0.0});

@@ -7,7 +7,7 @@
 
 namespace mpm {
 
-/// Of make_height_field() with one row, without end along y; the numbers are checked already.
+/// Result of make_height_field() with one row, without end along y; the numbers are checked already.
 std::unique_ptr<Surface> make_height_profile(const HeightGrid& grid);
 
 /// An edge or corner this near, as a part of the grid's spacing, is touched: the direction to it is rounding.

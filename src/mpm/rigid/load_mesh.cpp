@@ -17,7 +17,7 @@ namespace mpm {
 namespace {
 
 constexpr int kDeepestNode = 200;  ///< nodes in each other, elements of XML, brackets of JSON
-constexpr std::size_t kMostMeshBytes = std::size_t{1} << 29;  ///< of a file
+constexpr std::size_t kMostMeshBytes = std::size_t{1} << 29;  ///< bytes of a file
 
 /// Opens regular files alone, also those that a mesh file names, such as the materials of an OBJ.
 class RegularFiles final : public Assimp::DefaultIOSystem {
@@ -81,7 +81,7 @@ void check_file(const std::string& file) {
 TriangleMesh read_mesh(const std::string& file, double scale) {
   check_file(file);
   Assimp::Importer importer;
-  importer.SetIOHandler(new RegularFiles);  // which the importer deletes
+  importer.SetIOHandler(new RegularFiles);  // handler that the importer deletes
   // Axes as the file has them (z up in robotics), as RViz shows them; assimp would turn COLLADA's to y up.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Vertices are joined here, by equal coordinates: assimp's own joining looks at normals and colours too, and takes

@@ -20,8 +20,8 @@ namespace mpm {
 
 namespace {
 
-constexpr double kThinFaces = 0.05;   // of the surface: less may be thinner than the thickness
-constexpr double kHalfOfFaces = 0.5;  // of the surface: a sharp edge does not make a mesh thin
+constexpr double kThinFaces = 0.05;   // part of the surface: less may be thinner than the thickness
+constexpr double kHalfOfFaces = 0.5;  // part of the surface: a sharp edge does not make a mesh thin
 /// Number of samples of thickness; of a mesh with more triangles every second, third and so on is taken.
 constexpr std::size_t kMostSampled = 100000;
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kRays = 65536;                     ///< through all overlaps together
 constexpr int kFewestAcross = 6, kMostAcross = 64;  ///< across an overlap, with two rays along each axis
-constexpr int kTries = 8;                           ///< of a ray that meets an edge, each time a little aside
-constexpr double kAside = 1e-7;                     ///< of a cell
+constexpr int kTries = 8;                           ///< tries of a ray that meets an edge, each time a little aside
+constexpr double kAside = 1e-7;                     ///< part of a cell
 
 /// Integrals of 1, x and x x^T about a point.
 struct Integrals {
@@ -68,7 +68,7 @@ struct Crossings {
 
 using Spans = std::vector<std::pair<double, double>>;
 
-/// Where a line along an axis is inside a mesh. False where it meets an edge, so that this is not known.
+/// Spans where a line along an axis is inside a mesh. False if it meets an edge, so that this is not known.
 bool spans_inside(const SignedMesh& mesh, const Vec3& origin, int axis, Spans& spans) {
   Crossings crossings{origin, axis, {}};
   Eigen::BVIntersect(mesh.tree().boxes(), crossings);
@@ -113,7 +113,7 @@ class Overlap {
   }
 
  private:
-  /// Where a line is inside both; nowhere, if it meets edges however it is moved.
+  /// Spans where a line is inside both; nowhere, if it meets edges however it is moved.
   Spans spans(const Vec3& place, int axis, const Vec3& aside) const {
     for (int attempt = 0; attempt < kTries; ++attempt) {
       Spans own, others, both;

@@ -1,4 +1,4 @@
-// Which parts of a mesh are bodies, which are holes in them, and which can be one group, with the sign of one distance.
+// Division of a mesh into parts that are bodies, holes in them, and groups of both, with the sign of one distance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,15 +16,15 @@ namespace mpm {
 namespace {
 
 constexpr int kMostParts = 10'000;  ///< their boxes are compared in pairs
-constexpr double kTouch = 1e-9;     ///< of the mesh's size: rounding of coordinates that are meant to be equal
+constexpr double kTouch = 1e-9;     ///< part of the mesh's size: rounding of coordinates that are meant to be equal
 
 struct Part {
   int number = 0;
   double volume = 0.0;
   Box bounds;
   Vec3 place = Vec3::Zero();        ///< on its surface, to be named in errors
-  std::vector<int> holes;           ///< of a body, among holes
-  std::unique_ptr<SignedMesh> own;  ///< when it was asked for
+  std::vector<int> holes;           ///< holes of a body, among holes
+  std::unique_ptr<SignedMesh> own;  ///< mesh of its own if it was asked for
 };
 
 /// Makes meshes of some parts, at a cost of their own triangles.
@@ -75,7 +75,7 @@ class PartPicker {
 
  private:
   const SolidMesh& solid_;
-  std::vector<std::vector<int>> triangles_;  ///< of each part
+  std::vector<std::vector<int>> triangles_;  ///< triangles of each part
   std::vector<int> new_vertex_, new_triangle_;
 };
 
@@ -220,9 +220,9 @@ class Parts {
 
   const SolidMesh& solid_;
   PartPicker picker_;
-  std::vector<std::vector<int>> vertices_;  ///< of each part
+  std::vector<std::vector<int>> vertices_;  ///< vertices of each part
   std::vector<Part> bodies_, holes_;
-  std::vector<std::unique_ptr<SignedMesh>> outlines_;  ///< of bodies without their holes, when they were asked for
+  std::vector<std::unique_ptr<SignedMesh>> outlines_;  ///< outlines of bodies without their holes, if asked for
   double touch_ = 0.0;
 };
 

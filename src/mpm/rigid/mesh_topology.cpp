@@ -140,7 +140,7 @@ class SidePairs {
       turned.emplace_back(angle, sides[i]);
     }
     std::sort(turned.begin(), turned.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    // Where triangles lie on each other, the material behind one ends before that of the next begins.
+    // Material behind one triangle ends before that of the next begins, where they lie on each other.
     for (auto begin = turned.begin(); begin != turned.end();) {
       auto end = begin + 1;
       while (end != turned.end() && end->first - (end - 1)->first < kSameAngle) ++end;

@@ -7,7 +7,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kMargin = 0.25;  ///< of the longest edge of the bounds: where material is near
+constexpr double kMargin = 0.25;  ///< part of the longest edge of the bounds: where material is near
 constexpr std::size_t kCellsATriangle = 256, kMostCells = 65536;
 constexpr int kMostLookedAt = 96;      ///< triangles that may be nearest by the cell's ball alone
 constexpr double kSlack = 1.0 + 1e-9;  ///< for the round-off of what is computed from coordinates

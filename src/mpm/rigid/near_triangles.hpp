@@ -24,12 +24,12 @@ namespace mpm {
 
 class NearTriangles {
  public:
-  /// Whether a point is inside, from what is nearest to it.
+  /// True if a point is inside, from what is nearest to it.
   using Inside = std::function<bool(const Vec3& point, const Nearest& nearest)>;
 
   /// `tree` and its triangles must outlive this object. `bounds`: of the mesh [m].
   NearTriangles(const TriangleTree& tree, const std::vector<Triangle>& triangles, const Box& bounds, Inside inside);
-  /// What nearest_of() finds among all triangles, to the bit. False, with no answer, if the point is known to be
+  /// Finds what nearest_of() finds among all triangles, to the bit. False, with no answer, if the point is known to be
   /// outside and farther away than `band` [m].
   bool nearest(const Vec3& point, double band, Nearest& best) const;
 
@@ -51,7 +51,7 @@ class NearTriangles {
   const std::vector<Triangle>& triangles_;
   Inside inside_;
   Vec3 low_, per_metre_;
-  Vec3 half_;  ///< of a cell [m]
+  Vec3 half_;  ///< half the edges of a cell [m]
   std::array<int, 3> count_{};
   mutable std::vector<Cell> cells_;
 };

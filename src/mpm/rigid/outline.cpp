@@ -20,13 +20,13 @@ std::string point_text(const Profile& profile, std::size_t i, bool about_axis) {
                      profile[i].x(), profile[i].y());
 }
 
-/// Whether two edges have a point in common.
+/// True if two edges have a point in common.
 bool touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
   const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
   if (c_side * d_side < 0.0 && a_side * b_side < 0.0) return true;
   const auto within = [](const Vec2& p, const Vec2& from, const Vec2& to) {
-    return (p - from).dot(p - to) <= 0.0;  // of a point on the line
+    return (p - from).dot(p - to) <= 0.0;  // true for a point on the line
   };
   return (c_side == 0.0 && within(c, a, b)) || (d_side == 0.0 && within(d, a, b)) ||
          (a_side == 0.0 && within(a, c, d)) || (b_side == 0.0 && within(b, c, d));

@@ -18,7 +18,7 @@ namespace mpm {
 struct OutlineEdge {
   Vec2 from, to;
   Vec2 normal;                  ///< outward
-  Vec2 from_normal, to_normal;  ///< of its corners: sum of their edges' normals, unit
+  Vec2 from_normal, to_normal;  ///< normals of its corners: sum of their edges' normals, unit
   double length;
 };
 
@@ -31,7 +31,7 @@ double twice_area(const Profile& profile);
 
 class Outline {
  public:
-  /// Of a profile that check_outline() has passed, in either sense.
+  /// Makes the outline of a profile that check_outline() has passed, in either sense.
   Outline(Profile profile, bool about_axis);
 
   const std::vector<OutlineEdge>& edges() const { return edges_; }  ///< edges on the axis left out

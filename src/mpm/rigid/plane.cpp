@@ -10,7 +10,7 @@ namespace mpm {
 
 namespace {
 
-constexpr double kDrawnDepth = 0.05;  // of the slab's side
+constexpr double kDrawnDepth = 0.05;  // depth as part of the slab's side
 
 class PlaneSurface final : public Surface {
  public:

@@ -18,11 +18,11 @@ namespace mpm {
 
 namespace {
 
-constexpr int kRevolvedSegments = 48;  // of the display mesh
-constexpr int kSamples = 64;           // of an edge, for the thickness
+constexpr int kRevolvedSegments = 48;  // segments of the display mesh
+constexpr int kSamples = 64;           // samples of an edge, for the thickness
 // Faces that enclose less than 45 degrees are the two sides of a wall; more is an edge or a tip that ends a body.
 const double kOpposed = std::cos(0.25 * kPi);
-constexpr double kThinPart = 0.05;  // of the surface: less may be thinner than the thickness
+constexpr double kThinPart = 0.05;  // part of the surface: less may be thinner than the thickness
 
 class RevolvedSurface final : public Surface {
  public:
@@ -78,8 +78,8 @@ class RevolvedSurface final : public Surface {
   }
 
  private:
-  /// How far a ray inwards from a point of the surface goes, through the axis and on, until it leaves through a face
-  /// opposite; nothing where that face is not opposite (kOpposed).
+  /// Distance that a ray inwards from a point of the surface goes, through the axis and on, until it leaves through a
+  /// face opposite; nothing where that face is not opposite (kOpposed).
   std::optional<double> depth(const Vec2& origin, const Vec2& inwards, const OutlineEdge* own) const {
     double least = std::numeric_limits<double>::infinity();
     bool opposed = false;

@@ -36,7 +36,7 @@ class SignedMesh {
   Box bounds_;
   TriangleTree tree_;
   std::vector<Vec3> face_normals_, corner_normals_;
-  std::vector<std::array<Vec3, 3>> edge_normals_;  // of each triangle, edge i from corner i
+  std::vector<std::array<Vec3, 3>> edge_normals_;  // normals of each triangle's edges, edge i from corner i
 };
 
 /// Bounds of the triangles [m].

@@ -9,7 +9,7 @@ namespace mpm {
 
 namespace {
 
-constexpr int kSphereMeridians = 32;  // of the display mesh
+constexpr int kSphereMeridians = 32;  // meridians of the display mesh
 constexpr int kSphereParallels = 16;
 
 class SphereSurface final : public Surface {

@@ -17,12 +17,12 @@ std::vector<Triangle> triangles_of(const TriangleMesh& mesh);
 class TriangleTree {
  public:
   explicit TriangleTree(const std::vector<Triangle>& triangles);
-  /// What nearest_of() finds among all triangles, to the bit.
+  /// Finds what nearest_of() finds among all triangles, to the bit.
   Nearest nearest(const Vec3& point) const;
   /// Writes down all triangles that are at most `distance` [m] from a point, to round-off. Returns their number; -1 if
   /// it is above `most`.
   int within(const Vec3& point, double distance, const Triangle** found, int most) const;
-  /// Of a coordinate of a point near the mesh [m].
+  /// Round-off of a coordinate of a point near the mesh [m].
   double round_off() const { return round_off_; }
   /// For Eigen::BVIntersect.
   const Eigen::KdBVH<double, 3, Triangle>& boxes() const { return tree_; }

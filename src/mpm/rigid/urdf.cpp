@@ -19,7 +19,7 @@ namespace mpm {
 namespace {
 
 constexpr int kDeepestElement = 100;              ///< elements in each other; a robot has some ten
-constexpr std::size_t kMostUrdfBytes = 16 << 20;  ///< of a file
+constexpr std::size_t kMostUrdfBytes = 16 << 20;  ///< bytes of a file
 const char* const kExpand = "expand it first: xacro robot.xacro > robot.urdf";
 
 /// Hears what urdfdom has to say while it lives, in place of the terminal.

@@ -12,7 +12,7 @@ struct XmlElement {
   std::string attributes;          ///< as they are written, with blanks around
   int parent = -1;                 ///< its place in the list; -1 of one that is in no other
   int line = 0;                    ///< on which it begins, from 1
-  std::size_t begin = 0, end = 0;  ///< of its text, tags and all
+  std::size_t begin = 0, end = 0;  ///< range of its text, tags and all
 };
 
 /// All elements in the order in which they begin. What is not well-formed is left to the parser: an element without end

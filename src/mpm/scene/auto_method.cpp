@@ -23,7 +23,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTurned = 10.0 * kDegree;
 const char* const kDefault = "ugimp/usavg/flip";
 
-/// Whether some method reached the required error. Where all grids are too coarse, the method with the least error may
+/// True if some method reached the required error. Where all grids are too coarse, the method with the least error may
 /// not be the one that reaches the required error on finer grids.
 bool solved(const choice::MethodCosts& costs, const std::string& suite, const choice::Budget& budget) {
   const auto methods = costs.find(suite);
@@ -57,7 +57,7 @@ MethodDefinition filled(MethodDefinition method, const MethodDefinition& measure
   return method;
 }
 
-/// Whether a measured method is allowed for this scene, which keeps `transfer`.
+/// True if a measured method is allowed for this scene, which keeps `transfer`.
 bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const std::string& transfer, bool flows,
               const SimulationDefinition& definition) {
   const MethodDefinition& said = definition.method;

@@ -11,8 +11,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kOnPlane = 1e-6;  ///< of a spacing: 0.1 is not a binary number
-constexpr int kPartsOfColumn = 4;  ///< of a spacing, in which the depth of a terrain is asked for
+constexpr double kOnPlane = 1e-6;  ///< part of a spacing: 0.1 is not a binary number
+constexpr int kPartsOfColumn = 4;  ///< parts of a spacing in which the depth of a terrain is asked for
 
 bool on_plane(double place, double origin, double spacing) {
   const double planes = (place - origin) / spacing;

@@ -1,4 +1,4 @@
-// What the tips of cracks need of the material in which they lie: a law that has J, constants for the criterion of
+// Needs of the tips of cracks in the material in which they lie: a law that has J, constants for the criterion of
 // growth, and room for the contour of J.
 // Source: crack reference 4.1, 5.2.
 #include <fmt/format.h>

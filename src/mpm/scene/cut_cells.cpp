@@ -13,11 +13,11 @@
 namespace mpm {
 namespace {
 
-constexpr double kWhole = 1e-9;  ///< of a place: a share is that near to none or all of it
+constexpr double kWhole = 1e-9;  ///< part of a place: a share is that near to none or all of it
 /// Share of a place from which on it has a particle of its own wherever its centre is. It is no round number, for where
 /// surfaces cut places by one, round-off would decide.
 constexpr double kLeast = 0.0957;
-constexpr double kSame = 1e-6;       ///< of a spacing: places that are equally near
+constexpr double kSame = 1e-6;       ///< part of a spacing: places that are equally near
 constexpr double kLeastReach = 0.1;  ///< times that of a whole place; the most is kMostSurface
 
 /// Parts along an axis in which what lies in a body is found.
@@ -35,7 +35,7 @@ std::int64_t key(const Number& number) { return place_key(number[0], number[1], 
 
 /// The part of a place that lies in the body.
 struct Part {
-  double share;  ///< of a place
+  double share;  ///< share of a place
   Vec3 centre;
 };
 

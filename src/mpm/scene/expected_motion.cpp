@@ -12,8 +12,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kFlowStrain = 1.0;     // of a material that deforms without end
-constexpr double kPressedStrain = 0.1;  // where the scene alone does not determine it
+constexpr double kFlowStrain = 1.0;     // strain of a material that deforms without end
+constexpr double kPressedStrain = 0.1;  // strain where the scene alone does not determine it
 constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
 constexpr int kSamples = 5;  // points along an axis at which a body's largest speed is sought
 

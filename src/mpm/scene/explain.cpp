@@ -46,7 +46,7 @@ std::string mass_text(const RigidBodyDefinition& rigid) {
   return fmt::format("{:.4g} kg, free along {}", rigid.free->mass, axes);
 }
 
-/// Where it is at the start, how large and heavy, and how it may move: what a wrong unit changes.
+/// Tells where it is at the start, how large and heavy, and how it may move: what a wrong unit changes.
 std::string rigid_text(const RigidBodyDefinition& rigid, const SimulationDefinition& built) {
   std::string text = fmt::format("rigid body {}:", rigid.name);
   const Box bounds = world_bounds(rigid.pose, rigid.surface->bounds());

@@ -37,8 +37,8 @@ double particles_of(const BodyDefinition& body, const Scene& scene) {
   return places;
 }
 
-/// Of a particle, when the run is put together: its place in the definition is there beside it; where bodies start
-/// geostatic, so are the stress there, and a second run that settles.
+/// Memory of a particle when the run is put together: its place in the definition is there beside it; where bodies
+/// start geostatic, so are the stress there, and a second run that settles.
 double least_bytes(const Scene& scene) {
   const double particle = least_bytes_of_particle(scene.definition.method, scene.definition.geometry);
   const bool settles = std::any_of(scene.bodies.begin(), scene.bodies.end(),
@@ -52,7 +52,7 @@ double least_bytes(const Scene& scene) {
 WaveStep wave_step(const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
   WaveStep step;
-  if (definition.method.update == UpdateScheme::implicit) {  // which resolves none
+  if (definition.method.update == UpdateScheme::implicit) {  // resolves no waves
     step.dt = std::numeric_limits<double>::infinity();
     return step;
   }

@@ -13,9 +13,9 @@
 namespace mpm {
 namespace {
 
-constexpr int kPartsOfPlace = 4;       ///< of a spacing, for what is cut out of places that it does not fill
+constexpr int kPartsOfPlace = 4;       ///< parts of a spacing, for what is cut out of places that it does not fill
 constexpr double kSameVolume = 1e-8;   ///< round-off of a sum over all particles
-constexpr double kSameCutOut = 0.002;  ///< what is cut out evens out over many places, and is found about as well
+constexpr double kSameCutOut = 0.002;  ///< part: what is cut out evens out over many places, and is found about as well
 
 Box world_bounds(const RigidBodyDefinition& rigid) {
   const Box local = rigid.surface->bounds();

@@ -23,7 +23,7 @@ class StandingTool {
  public:
   explicit StandingTool(const RigidBodyDefinition& rigid);
   const std::string& name() const { return rigid_->name; }
-  /// Whether a place lies in it by more than `depth` [m], and how deep.
+  /// True if a place lies in it by more than `depth` [m]; `deep` is then how far.
   bool holds(const Vec3& place, double depth, double& deep) const;
   /// False where no place within `reach` [m] along each axis lies in it.
   bool may_hold(const Vec3& place, double reach) const;
@@ -41,9 +41,9 @@ class Filling {
 
   double particle_volume() const { return volume_; }  ///< [m^3], as DeformableBody::particle_volume
   bool cuts() const { return !cut_.empty(); }         ///< some particles have a part of it, or more
-  /// Where it is not the grid's.
+  /// Lattice of the particles if it is not the grid's.
   std::optional<ParticleLattice> lattice() const;
-  /// How the particles differ from those of the grid's lattice; empty where they do not.
+  /// Difference of the particles from those of the grid's lattice; empty if there is none.
   std::string text() const;
   std::size_t places() const { return places_; }  ///< before any is cut out
   /// Refuses a body of which nothing is left. @throws SceneError
@@ -57,7 +57,7 @@ class Filling {
       if (!is_cut_out(place.centre)) visit(place);
     });
   }
-  /// Of a body without jitter: whether it has a particle beside that at `place` along an axis.
+  /// True if a body without jitter has a particle beside that at `place` along an axis.
   bool has_neighbour(const Vec3& place, int axis, bool above) const;
 
  private:
@@ -95,7 +95,7 @@ class Filling {
   std::size_t places_ = 0;
 };
 
-/// Whether a body's particles lie in other bodies.
+/// Checks of whether a body's particles lie in other bodies.
 class FillingChecks {
  public:
   /// `half_spacing` of particles [m]: so deep they may lie in rigid bodies.

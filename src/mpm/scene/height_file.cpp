@@ -50,7 +50,7 @@ HeightTable read_image(std::istream& stream, const std::string& path, const Heig
   return table;
 }
 
-/// Whether a file is no text: it has bytes that are no characters.
+/// True if a file is no text: it has bytes that are no characters.
 bool is_binary(const std::string& bytes) {
   return std::any_of(bytes.begin(), bytes.end(), [](char c) {
     const auto code = static_cast<unsigned char>(c);

@@ -17,14 +17,14 @@ struct HeightTable {
   int columns = 0, rows = 0;
   std::vector<double> values;
   bool of_white = false;       ///< parts of white, 0 to 1, and not heights
-  std::optional<double> unit;  ///< of a GeoTIFF that says so: the length that its number 1 stands for [m]
-  std::string unit_fault;      ///< why the unit that it says is not known; empty where it is, and where it says none
-  /// Of a GeoTIFF, in its own coordinates [m]: places of the first and of the last point.
+  std::optional<double> unit;  ///< length that the number 1 of a GeoTIFF stands for, if it says so [m]
+  std::string unit_fault;      ///< fault of the unit that it says; empty if that is known, or if it says none
+  /// Places of the first and of the last point of a GeoTIFF, in its own coordinates [m].
   std::optional<std::pair<Vec2, Vec2>> span;
-  std::string no_span = "it does not say how large it is";  ///< why there is no span, in an error
+  std::string no_span = "it does not say how large it is";  ///< reason why there is no span, in an error
 };
 
-/// How many points a map may have, and of what: the rest of "the most that ... may have".
+/// Number of points that a map may have, and of what: the rest of "the most that ... may have".
 struct HeightLimit {
   double points;
   const char* of;

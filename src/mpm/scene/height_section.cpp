@@ -13,8 +13,8 @@
 namespace mpm {
 namespace {
 
-constexpr int kMostCells = 4096;     // of an expression's points, along an axis
-constexpr double kSpanSlack = 1e-6;  // of a pixel
+constexpr int kMostCells = 4096;     // most cells of an expression's points, along an axis
+constexpr double kSpanSlack = 1e-6;  // part of a pixel
 
 int read_cells(const Value& value) {
   const int cells = value.integer();

@@ -11,9 +11,9 @@
 namespace mpm {
 namespace {
 
-constexpr int kFewestPlaces = 6;     ///< of a list of x y z; fewer may be heights by chance
-constexpr double kEvenStep = 1e-3;   ///< of a step: rounding of places that are written with few digits
-constexpr double kFilledPart = 0.5;  ///< of a lattice, from which on a list of places is taken for one
+constexpr int kFewestPlaces = 6;     ///< places of a list of x y z; fewer may be heights by chance
+constexpr double kEvenStep = 1e-3;   ///< part of a step: rounding of places that are written with few digits
+constexpr double kFilledPart = 0.5;  ///< part of a lattice from which on a list of places is taken for one
 
 bool is_blank(char c) { return std::strchr(" \t\r\v\f", c) != nullptr && c != '\0'; }
 

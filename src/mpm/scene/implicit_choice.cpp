@@ -123,7 +123,8 @@ bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
   const double step = before.time.step.value_or(kImplicitStep);
   if (!(step > kWorth * wave.dt)) return false;
   scene.definition.method = after.method;
-  const auto is_transfer = [](const auto& choice) { return choice.first == "method.transfer"; };  // of explicit steps
+  // Transfer of explicit steps, which implicit ones do not take.
+  const auto is_transfer = [](const auto& choice) { return choice.first == "method.transfer"; };
   scene.choices.erase(std::remove_if(scene.choices.begin(), scene.choices.end(), is_transfer), scene.choices.end());
   scene.choices.emplace_back(
       "method", fmt::format("{}, {}, {}: soil with slow tools, where a step may last as long as {:.0f} explicit ones",

@@ -16,7 +16,7 @@ namespace {
 constexpr int kStepsOfALeg = 100;
 constexpr int kStepsOfARow = 10;
 
-/// Whether the text is a map without the key `name`. The reader reports a text that is not a map.
+/// True if the text is a map without the key `name`. The reader reports a text that is not a map.
 bool is_nameless(const std::string& text) {
   try {
     const YAML::Node node = YAML::Load(text);

@@ -15,8 +15,8 @@ Elasticity read_elasticity(const Map& map) {
 namespace {
 
 constexpr double kGlassInertial = 0.279;  // I_0 of glass beads, Jop, Forterre & Pouliquen (2006)
-constexpr double kLeastPart = 0.01;       // of clay's preconsolidation pressure
-constexpr double kGrainFraction = 0.6;    // of the volume of a heap, of the same
+constexpr double kLeastPart = 0.01;       // part of clay's preconsolidation pressure
+constexpr double kGrainFraction = 0.6;    // part of the volume of a heap, of the same
 
 const std::vector<Later>& later_laws() {
   static const std::vector<Later> laws = {{"rigid", "a rigid body is not a material: write it under rigid_bodies"}};

@@ -163,7 +163,7 @@ class PathFile {
   int steps_;
   int line_ = 0;
   double time_unit_ = 1.0;
-  double time_ = 0.0;  ///< of the last row [s]
+  double time_ = 0.0;  ///< time of the last row [s]
   std::vector<Column> columns_;
   StrainPath path_;
 };

@@ -222,7 +222,7 @@ bool names_friction(const Map& root) {
 }  // namespace
 
 double thinnest_mesh(const SimulationDefinition& definition) {
-  return kThinnestMesh * definition.grid.cell.minCoeff();  // of a solid scene, which alone has meshes
+  return kThinnestMesh * definition.grid.cell.minCoeff();  // cell of a solid scene, which alone has meshes
 }
 
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {

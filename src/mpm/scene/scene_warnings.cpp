@@ -13,7 +13,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kMostWeightStrain = 0.1;  ///< of a body under its own weight
+constexpr double kMostWeightStrain = 0.1;  ///< strain of a body under its own weight
 constexpr double kLightest = 5.0;          ///< [kg/m^3]; solids and liquids are heavier, foams among them
 constexpr double kHeaviest = 23000.0;      ///< [kg/m^3]; osmium has 22,590
 constexpr double kRoundOff = 1e-9;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kOfFall = 0.01;    ///< default speed: of that after a free fall of half a cell
 constexpr double kWake = 3.0;       ///< default of `wake`, in speeds
-constexpr double kFromMotion = 10;  ///< what the scene moves on purpose has to be so many times as fast
+constexpr double kFromMotion = 10;  ///< ratio by which what the scene moves on purpose has to be faster
 
 /// The highest speed of a body at the start, at the corners and the middle of its bounds.
 double speed_of(const BodyDefinition& body) {

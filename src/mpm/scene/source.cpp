@@ -17,7 +17,7 @@ constexpr int kMostValues = 100000;
 constexpr std::size_t kOverrideShown =
     100;  // characters of an override in an error: one can hold a whole map of heights
 
-/// What an error says of an override.
+/// Text of an error on an override.
 std::string override_label(const std::string& text) {
   return "--set " + (text.size() > kOverrideShown ? text.substr(0, kOverrideShown) + "..." : text);
 }
@@ -58,7 +58,7 @@ void check_tree(const YAML::Node& node, const std::string& label, const std::str
   }
 }
 
-// Whether `node` is `tree` or lies inside it.
+// True if `node` is `tree` or lies inside it.
 bool holds(const YAML::Node& tree, const YAML::Node& node) {
   if (tree.is(node)) return true;
   if (tree.IsSequence()) {

@@ -20,7 +20,7 @@ namespace mpm {
 namespace {
 
 constexpr int kMostTimes = 4;         ///< wider, or smaller, than the scene's own cell
-constexpr double kOnLattice = 1e-6;   ///< of a spacing
+constexpr double kOnLattice = 1e-6;   ///< part of a spacing
 constexpr double kLongestFace = 1e6;  ///< [cells]; beyond, a face is no face of a body
 
 bool whole(double number) { return std::abs(number - std::round(number)) <= kOnLattice; }
@@ -34,7 +34,7 @@ std::vector<double> faces_of(const BodyDefinition& body, int axis) {
   return {bounds.min[axis], bounds.max[axis]};
 }
 
-/// Whether the faces of bodies that lie on the lattice of particles of the scene's own cell lie on the new one.
+/// True if the faces of bodies that lie on the lattice of particles of the scene's own cell lie on the new one.
 bool faces_fit(const Scene& scene, const Vec3& cell, int along) {
   const GridDefinition& grid = scene.definition.grid;
   for (const BodyDefinition& body : scene.bodies) {
@@ -49,7 +49,7 @@ bool faces_fit(const Scene& scene, const Vec3& cell, int along) {
   return true;
 }
 
-/// Whether a shape is evaluated at points that follow grid.cell: a height_field from an expression, without `cells`.
+/// True if a shape is evaluated at points that follow grid.cell: a height_field from an expression, without `cells`.
 bool follows_cell(const Scene& scene) {
   const YAML::Node root = YAML::Load(scene.text);
   for (const char* section : {"bodies", "rigid_bodies"}) {

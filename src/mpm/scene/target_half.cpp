@@ -59,14 +59,14 @@ std::string asymmetry_of_body(const BodyDefinition& body, double plane, double t
 
 /// True if an axis is one of a tensor's own.
 bool along_axis(const Symmetric3<double>& tensor, int axis) {
-  const std::array<double, 3> off = {tensor.yz, tensor.xz, tensor.xy};  // of each, the one that it is not in
+  const std::array<double, 3> off = {tensor.yz, tensor.xz, tensor.xy};  // component that each axis is not in
   for (int other = 0; other < 3; ++other) {
     if (other != axis && off[static_cast<std::size_t>(other)] != 0.0) return false;
   }
   return true;
 }
 
-/// Whether the corners of a tool's bounds, in its pose, are their own mirror image.
+/// True if the corners of a tool's bounds, in its pose, are their own mirror image.
 bool corners_mirrored(const RigidBodyDefinition& body, double plane, double tolerance, int axis) {
   const Box bounds = body.surface->bounds();
   std::array<Vec3, 8> corners;

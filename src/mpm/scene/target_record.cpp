@@ -37,7 +37,7 @@ YAML::Node target_of(const std::string& text) {
   }
 }
 
-/// What is asked, without what was chosen.
+/// Returns what is asked, without what was chosen.
 YAML::Node asked_of(const YAML::Node& target) {
   YAML::Node copy = YAML::Clone(target);
   for (const char* key : {"chosen", "before", "asked", "expected"}) copy.remove(key);
@@ -83,7 +83,7 @@ std::optional<std::vector<std::string>> texts_of(const YAML::Node& target, const
   return texts;
 }
 
-/// What the keys of `lines` are set to in `root`; of those that a choice has changed already, what they were before it.
+/// Values of the keys of `lines` in `root`; for those that a choice has changed already, the values before it.
 std::vector<std::string> values_before(const YAML::Node& root, const YAML::Node& target,
                                        const std::vector<std::string>& lines) {
   const std::vector<std::string> chosen = texts_of(target, "chosen").value_or(std::vector<std::string>());
@@ -116,7 +116,7 @@ void put_back(const YAML::Node& root, const std::string& line) {
 Scene parsed_with(const Scene& scene, const std::string& text, const std::vector<std::string>& lines) {
   Scene chosen = parse_scene(text, scene.path, lines);
   chosen.definition.time.end = scene.definition.time.end;  // as --end has it
-  // What was chosen before the text was written is in it as if it had been said.
+  // Adds what was chosen before the text was written, which is in it as if it had been said.
   for (const auto& choice : scene.choices) {
     const auto same = [&](const auto& other) { return other.first == choice.first; };
     if (std::none_of(chosen.choices.begin(), chosen.choices.end(), same)) chosen.choices.push_back(choice);

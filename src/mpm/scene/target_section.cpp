@@ -72,7 +72,7 @@ void read_chosen(const Map& map, pace::Target& target) {
   if (const auto error = of.find("force_error")) target.expected_error = error->positive(kPlain);
 }
 
-/// Of a scene that was halved already nothing is asked.
+/// Asks nothing of a scene that was halved already.
 void read_symmetric(const Value& value, Scene& scene) {
   const std::vector<int> axes = axes_of(scene);
   std::vector<std::string> names;

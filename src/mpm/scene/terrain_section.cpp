@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kTerrainSlack = 1e-6;  // of a cell, by which ends may differ
+constexpr double kTerrainSlack = 1e-6;  // part of a cell by which ends may differ
 
 /// A unit in which heights may have been written although the scene takes them for another.
 struct OtherUnit {

@@ -6,8 +6,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kWhile = 10.0;      ///< of a run without an end, that motions are looked at [s]
-constexpr int kLooksAtMotion = 100;  ///< of a motion over the run
+constexpr double kWhile = 10.0;      ///< part of a run without an end in which motions are looked at [s]
+constexpr int kLooksAtMotion = 100;  ///< looks at a motion over the run
 
 }  // namespace
 

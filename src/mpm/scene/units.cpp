@@ -195,7 +195,7 @@ std::string base_units(const Dimension& dimension) {
 // product := factor { ['*' | ' ' | '/'] factor };  factor := [ '√' | 'sqrt' ] ( name | '1' | '(' product ')' ) [ ['^']
 // number ], the number a multiple of a half
 class UnitParser {
-  static constexpr double kLargestExponent = 99.0;  ///< of a base unit, so that factors stay finite
+  static constexpr double kLargestExponent = 99.0;  ///< exponent of a base unit, so that factors stay finite
 
  public:
   explicit UnitParser(const std::string& text) : text_(text) {}

@@ -1,4 +1,4 @@
-// What a Simulation says of itself: momentum audit, energies, the hash of its state. Computed when asked for.
+// Account that a Simulation gives of itself: momentum audit, energies, the hash of its state. Computed when asked for.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -35,7 +35,7 @@ EqualSteps equal_steps(double length, const StepLimit& limit, double now) {
   return {static_cast<int>(count), length / count};
 }
 
-/// Whether a step of dt comes nearer to the one in which a wave crosses a whole cell, dt_limit / cfl, than to dt_limit.
+/// True if a step of dt comes nearer to the one in which a wave crosses a whole cell, dt_limit / cfl, than to dt_limit.
 bool comes_too_near(double dt, double dt_limit, double cfl) { return !(dt <= dt_limit / std::sqrt(cfl)); }
 
 /// After how many steps of dt the particles are looked at again, when the limit went from `before` to `now` in so many
@@ -93,7 +93,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
 }
 
 void Simulation::State::run_period() {
-  // What implicit steps resolve is motion, whose limit is its own.
+  // Implicit steps resolve motion, whose limit is its own.
   const double cfl = definition.method.update == UpdateScheme::implicit ? 1.0 : definition.time.cfl;
   const double begin = static_cast<double>(time) * kNanosecond;
   const double period = static_cast<double>(definition.time.sync) * kNanosecond, end = begin + period;
@@ -102,7 +102,7 @@ void Simulation::State::run_period() {
   StepLimit seen = material_limit;
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
-  double part_begin = begin;  // of those steps
+  double part_begin = begin;  // start of those steps
   bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
     const bool more = k + 1 < steps_ahead.number;
@@ -134,13 +134,13 @@ void Simulation::State::run_period() {
 
   previous_limit = material_limit;
   material_limit = survey_material();
-  equal_steps(period, material_limit, end);  // what is not finite ends the run before it is told of
+  equal_steps(period, material_limit, end);  // ends the run for what is not finite, before it is told of
   see_courant(steps_ahead.dt, material_limit);
   if (divided) ++steps.divided;
   if (energy_watch.due(steps.steps)) watch_energy(end, material_limit);
 }
 
-// What is wrong with the particles or nodes of one rank the others do not know of: it ends them, and nothing is
+// Ends the run for a fault in the particles or nodes of one rank, which the others do not know of; nothing is
 // written.
 void Simulation::State::end_run(const std::string& reason) const {
   if (over) throw RankFailure(reason);

@@ -1,4 +1,4 @@
-// What a tool may do in an axisymmetric scene: move along its axis, which is the scene's; a ring may also open and
+// Motion of a tool in an axisymmetric scene: it may move along its axis, which is the scene's; a ring may also open and
 // close, along x. Anything else would end the symmetry, so it is refused. Private to this folder.
 #pragma once
 

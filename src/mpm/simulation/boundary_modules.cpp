@@ -1,4 +1,4 @@
-// What happens at the faces of the domain and at the axis, and prescribed velocities: the modules of boundary/.
+// Modules of boundary/: those at the faces of the domain and at the axis, and prescribed velocities.
 #include <fmt/core.h>
 
 #include "mpm/boundary/absorbing.hpp"

@@ -16,7 +16,7 @@
 namespace mpm {
 namespace {
 
-/// Of words of 16 bits whose first byte is the higher one, as the library takes them on all machines.
+/// Checksum of words of 16 bits whose first byte is the higher one, as the library takes them on all machines.
 std::uint32_t fletcher32(const void* data, std::size_t bytes) {
   constexpr std::size_t kWords = 360;  // so many sums do not leave 32 bits
   const auto* byte = static_cast<const unsigned char*>(data);

@@ -21,7 +21,7 @@ namespace mpm {
 
 class ChunkWriter {
  public:
-  /// Of a file that another rank has made, with the inode number that it has there. @throws CheckpointError
+  /// Opens a file that another rank has made, with the inode number that it has there. @throws CheckpointError
   ChunkWriter(const std::string& path, std::uint64_t inode);
   ChunkWriter(const ChunkWriter&) = delete;
   ChunkWriter& operator=(const ChunkWriter&) = delete;

@@ -34,14 +34,14 @@ bool is_rigid(const std::string& name, const SimulationDefinition& definition) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const RigidBodyDefinition& body) { return body.name == name; });
 }
 
-/// Whether two deformable bodies have a law with each other.
+/// True if two deformable bodies have a law with each other.
 bool has_pairs(const SimulationDefinition& definition) {
   const auto& pairs = definition.contact.pairs;
   return std::any_of(pairs.begin(), pairs.end(),
                      [&](const PairDefinition& pair) { return !is_rigid(pair.second, definition); });
 }
 
-/// What is asked of the material's places at the start.
+/// True if contact asks for the material's places at the start.
 bool needs_starts(const SimulationDefinition& definition) {
   const DetectionRule& rule = definition.contact.detection;
   return rule.kind == Detection::displacements || (axisymmetric(definition.geometry) && rule.minimum_volume > 0.0);

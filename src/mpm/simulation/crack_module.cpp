@@ -13,7 +13,7 @@
 namespace mpm {
 namespace {
 
-/// Of isotropic elastic materials.
+/// Constants of isotropic elastic materials.
 std::optional<ElasticConstants> elastic_of(const MaterialDefinition& material, GeometryKind geometry) {
   return std::visit(
       [&](const auto& law) -> std::optional<ElasticConstants> {
@@ -28,7 +28,8 @@ std::optional<ElasticConstants> elastic_of(const MaterialDefinition& material, G
       material.law);
 }
 
-/// What growth can be paid from: dissipation by damping and transfer is how the waves of growth leave the body.
+/// Energies that growth can be paid from: dissipation by damping and transfer is how the waves of growth leave the
+/// body.
 BodyEnergies body_energies(const EnergyReport& energy) {
   const double plastic = energy.of("plastic");
   return {energy.balance() - plastic - energy.of("damping") - energy.of("transfer"), plastic};

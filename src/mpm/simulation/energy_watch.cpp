@@ -9,7 +9,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kStillSpeed = 1e-4;  ///< of the speed of waves: particles that move by less may do so out of rounding
+constexpr double kStillSpeed = 1e-4;  ///< part of the speed of waves: slower particles may move by rounding alone
 
 }  // namespace
 

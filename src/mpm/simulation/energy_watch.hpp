@@ -13,13 +13,13 @@ namespace mpm {
 
 class EnergyWatch {
  public:
-  /// What a run has made.
+  /// Energy that a run has made.
   struct Made {
     double kinetic, given, made;  ///< [J]
     bool too_much;
   };
 
-  /// Whether so many steps have passed since the last look that it is time for another.
+  /// True if so many steps have passed since the last look that it is time for another.
   bool due(std::uint64_t steps) const { return steps >= looked_ + kStepsBetween; }
   /// Looks at the energies after so many steps. `least` [J]: what is noise in this run. The first call takes the state
   /// as the start.

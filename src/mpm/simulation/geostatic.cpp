@@ -27,14 +27,14 @@
 namespace mpm {
 namespace {
 
-constexpr std::uint64_t kMostSettlingSteps = 10'000;  ///< of settling
+constexpr std::uint64_t kMostSettlingSteps = 10'000;  ///< steps of settling
 constexpr int kCreepingSteps = 100;                   ///< without a peak of the kinetic energy
-constexpr double kOfCreep = 0.1;            ///< of the residual that is asked for, as mean acceleration over g
+constexpr double kOfCreep = 0.1;            ///< part of the residual that is asked for, as mean acceleration over g
 constexpr double kNoChange = 1e30;          ///< storage at which a pressure stays as it is [1/Pa]
 constexpr std::uint64_t kSurveyEvery = 10;  ///< steps between looks at the wave speed
 constexpr int kRows = 4096;                 ///< particles taken over at once
 
-/// What is out of balance after a step from rest.
+/// Imbalance after a step from rest.
 struct Unbalanced {
   double mean = std::numeric_limits<double>::infinity();  ///< sum over nodes of |m a| over the weight
   double most = std::numeric_limits<double>::infinity();  ///< largest |a| / g of nodes that carry half a particle
@@ -63,7 +63,7 @@ void stop(std::vector<ParticleSet>& sets) {
 /// The part of a scene that settles.
 SimulationDefinition resting_part(const SimulationDefinition& definition) {
   SimulationDefinition part = definition;
-  // What is settled comes to rest sooner if each particle has its own strength.
+  // Material that settles comes to rest sooner if each particle has its own strength.
   part.method.average_stress = false;
   // Waves settle it, which implicit steps do not have.
   if (part.method.update == UpdateScheme::implicit) {
@@ -75,7 +75,7 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   part.bodies.clear();
   part.metrics.clear();
   part.sleep.reset();
-  part.cracks = {};                      // what settles is whole
+  part.cracks = {};                      // removes cracks: what settles is whole
   part.method.damping.feedback.reset();  // it would remember the fall
   for (const DeformableBody& body : definition.bodies) {
     if (!body.geostatic) continue;

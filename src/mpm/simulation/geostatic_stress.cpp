@@ -23,11 +23,11 @@ constexpr double kGap = 1.5;  ///< particle spacings from centre to centre that 
 
 /// A particle in its column.
 struct Part {
-  int family;            ///< of columns: those of one lattice
-  std::int64_t column;   ///< which column of the lattice
+  int family;            ///< number of the columns' lattice
+  std::int64_t column;   ///< number of the column in the lattice
   double depth;          ///< along gravity [m]
   double weight;         ///< [N]
-  double area;           ///< of the column [m^2]
+  double area;           ///< area of the column [m^2]
   std::uint32_t number;  ///< in the list that it came in
 };
 
@@ -92,8 +92,8 @@ class ColumnFamilies {
   std::vector<ParticleLattice> families_;
 };
 
-/// Of each part, by number: half of its own weight and that of all above it, over the column's area [Pa]. Parts of a
-/// column that are farther from each other than `gap` [m] carry nothing of each other.
+/// Stress of each part, by number: half of its own weight and that of all above it, over the column's area [Pa]. Parts
+/// of a column that are farther from each other than `gap` [m] carry nothing of each other.
 std::vector<double> vertical_stresses(std::vector<Part> parts, double gap) {
   std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
     if (a.family != b.family) return a.family < b.family;
@@ -151,7 +151,7 @@ std::vector<double> vertical_stresses(Communicator& ranks, const std::vector<Par
   return stresses;
 }
 
-/// Of all ranks.
+/// Least value of all ranks.
 double least_of(const std::vector<double>& values, Communicator* ranks) {
   double least = std::numeric_limits<double>::infinity();
   for (const double value : values) least = std::min(least, value);
@@ -161,7 +161,7 @@ double least_of(const std::vector<double>& values, Communicator* ranks) {
   return -least;
 }
 
-/// Where the centres of a body's particles lie, on all ranks.
+/// Extent of the centres of a body's particles, on all ranks.
 struct Extent {
   std::string body;
   int family;

@@ -22,13 +22,13 @@ struct Quantity {
   std::string name;
   std::string unit;
   Source source;
-  std::vector<std::string> fields = {};    ///< of particles
-  int axis = 0;                            ///< of a contact force; -1: outwards, of a radian
-  std::vector<std::string> energies = {};  ///< of the run, that are added to a sum (EnergyReport)
+  std::vector<std::string> fields = {};    ///< fields of particles
+  int axis = 0;                            ///< axis of a contact force; -1: outwards, of a radian
+  std::vector<std::string> energies = {};  ///< energies of the run that are added to a sum (EnergyReport)
   std::vector<std::string> less = {};      ///< that are taken from it
 };
 
-// What loads, velocity conditions, absorbing faces and rigid bodies did since the start.
+// Work that loads, velocity conditions, absorbing faces and rigid bodies did since the start.
 const std::vector<std::string> kExternalWork = {"load_work", "contact_work"};
 
 const std::vector<Quantity>& table() {
@@ -100,7 +100,7 @@ int find(const std::string& name) {
   return found == all.end() ? -1 : static_cast<int>(found - all.begin());
 }
 
-/// Whether there is one of each body.
+/// True if there is one of each body.
 bool of_bodies(const Quantity& quantity) {
   return quantity.source == Source::contact || (!quantity.fields.empty() && quantity.energies.empty());
 }
@@ -143,7 +143,7 @@ bool of_rigid_body(const GlobalQuantity& quantity) {
 
 namespace {
 
-/// Of a number that some module of the run brings; empty if none does.
+/// Unit of a number that some module of the run brings; empty if none does.
 std::string unit_of_number(const std::vector<NamedNumber>& numbers, const std::string& name) {
   const auto own = [&](const NamedNumber& number) { return number.name == name; };
   const auto found = std::find_if(numbers.begin(), numbers.end(), own);
@@ -157,7 +157,7 @@ GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<Glo
   for (const GlobalQuantity& wanted : chosen) {
     Term term{find(wanted.name), {}, 0, static_cast<std::size_t>(simulation.particles()), {}, 0.0};
     const std::string unit = wanted.body.empty() ? unit_of_number(simulation.numbers(), wanted.name) : "";
-    if (term.quantity < 0 && !unit.empty()) {  // of a module that is not shipped
+    if (term.quantity < 0 && !unit.empty()) {  // true for a number of a module that is not shipped
       names_.push_back(wanted.name);
       units_.push_back(unit);
       terms_.push_back(std::move(term));

@@ -43,7 +43,7 @@ hid_t type_of(StateArchive::Number number) {
 /// Recursive: an Hdf5Id closes within calls that hold it.
 std::recursive_mutex one_at_a_time;
 
-/// Why no file of that name can be written; empty if it can.
+/// Reason why no file of that name can be written; empty if it can.
 std::string problem_with(const std::string& path) {
   if (std::string refused = refused_output(path); !refused.empty()) return refused;  // a pipe would wait to be opened
   std::FILE* file = std::fopen(path.c_str(), "wb");
@@ -68,7 +68,7 @@ bool Hdf5Id::close() {
 
 void silence_hdf5() {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // of this thread, where the library knows threads
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // handler of this thread, if the library knows threads
   // The library has asked to be closed at exit before, when it was first called; what is asked for later comes first.
   [[maybe_unused]] static const int at_exit = std::atexit([] { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); });
 }

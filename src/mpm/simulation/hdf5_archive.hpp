@@ -42,7 +42,7 @@ class Hdf5Id {
 /// leaves open is closed when the program ends, in whichever thread that is.
 void silence_hdf5();
 
-/// What is told of a disk that did not take all. `error`: a value of errno; 0: not known.
+/// Error for a disk that did not take all. `error`: a value of errno; 0: not known.
 CheckpointError not_written_whole(const std::string& path, int error);
 
 class Hdf5Writer final : public StateArchive {
@@ -78,7 +78,7 @@ class Hdf5Reader final : public StateArchive {
   explicit Hdf5Reader(const std::string& path);
   bool reading() const override { return true; }
   bool has(const std::string& name) const;
-  // Of arrays by their whole names. @throws CheckpointError
+  // Access to arrays by their whole names. @throws CheckpointError
   std::size_t count(const std::string& name) { return stored(name); }
   void array(const std::string& name, Number number, void* data, std::size_t count) {
     values(name, number, data, count);

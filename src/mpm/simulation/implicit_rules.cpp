@@ -78,7 +78,7 @@ Fault material_part(const SimulationDefinition& d) {
   return {};
 }
 
-constexpr double kAlong = 1.0 - 1e-9;  ///< of a unit vector, the component along its axis at the least
+constexpr double kAlong = 1.0 - 1e-9;  ///< least component of a unit vector along its axis
 
 bool plain(const FrictionLaw& law) { return law.static_coefficient < 0.0 && law.adhesion == 0.0; }
 

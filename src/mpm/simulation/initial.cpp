@@ -54,7 +54,7 @@ void store(const InitialState& state, GeometryKind geometry, ParticleSet& set, s
 struct Spread {
   double least = 1.0, most = 1.0;
   double inverse = 0.0;  ///< sum of 1 / J
-  /// Whether no particle is strained.
+  /// True if no particle is strained.
   bool is_even() const { return least == 1.0 && most == 1.0; }
 };
 

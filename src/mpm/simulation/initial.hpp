@@ -1,4 +1,4 @@
-// How particles start: under a stress, at a temperature, or as soil at rest. Private to this folder.
+// Start of particles: under a stress, at a temperature, or as soil at rest. Private to this folder.
 #pragma once
 
 #include <string>

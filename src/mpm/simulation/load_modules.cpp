@@ -87,7 +87,7 @@ TractionTerm make_term(const TractionDefinition& load, RunParts& parts) {
 
 namespace {
 
-/// Whether all of these particles of a set reach to r = 0.
+/// True if all of these particles of a set reach to r = 0.
 bool all_on_axis(const std::vector<std::uint32_t>& particles, const ParticleSet& set, const RunParts& parts) {
   const double touching = set.half[0] * parts.layout().cell(0) * (1.0 + 1e-9);
   std::vector<int> places;

@@ -72,7 +72,7 @@ Fault dilatation_fault(const MethodDefinition& method, GeometryKind geometry) {
   return {};
 }
 
-/// Whether something locks that has one stress for each particle.
+/// True if particles with one stress each may lock.
 bool may_lock(GeometryKind geometry) {
   return geometry != GeometryKind::line && geometry != GeometryKind::plane_stress;
 }

@@ -38,7 +38,7 @@ double reported(const Simulation& simulation, const MetricDefinition& metric) {
                                     metric.name, metric.number));
 }
 
-/// Of numbers of which each rank has some. `ranks`: null for a process that is alone. Not a number of none.
+/// Statistic of numbers of which each rank has some. `ranks`: null for a process that is alone. Not a number of none.
 double statistic(Statistic which, const double* begin, const double* end, Communicator* ranks) {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   const auto sum_of_all = [&](double own) { return ranks == nullptr ? own : ranks->sum(own); };

@@ -16,14 +16,14 @@ namespace {
 constexpr double kAround = 4.0;  ///< cells beside a tool whose nodes contact with it may need
 constexpr double kMoves = 2.0;   ///< cells that a tool may move before ranks meet again
 
-/// How far a point of the body is from where it was, at most [m].
+/// Largest distance of a point of the body from where it was [m].
 double moved(const RigidBody& body, const Pose& from, const GridLayout& layout) {
   const Box bounds = body.surface().bounds();
   const Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
   double squared = 0.0;
   for (int k = 0; k < layout.dim(); ++k) squared += std::pow(corner[layout.axis(k)], 2);
   const double turned = from.orientation.angularDistance(body.pose().orientation);
-  const double by_turning = turned > 0.0 ? turned * std::sqrt(squared) : 0.0;  // what has no end need not turn
+  const double by_turning = turned > 0.0 ? turned * std::sqrt(squared) : 0.0;  // endless bodies need not turn
   return (body.pose().position - from.position).norm() + by_turning;
 }
 
@@ -66,7 +66,7 @@ void OverRanks::meet(Fields& fields) {
   halo_.meet(fields, near_tool());
 }
 
-// Where tools were when ranks met is kept: by it they had their blocks, and from there tools may move.
+// Keeps where tools were when ranks met: by it they had their blocks, and from there tools may move.
 void OverRanks::meet_as_read(Fields& fields) { halo_.meet(fields, near_tool()); }
 
 bool OverRanks::tools_have_moved() const {

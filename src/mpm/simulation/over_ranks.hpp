@@ -21,7 +21,7 @@
 
 namespace mpm {
 
-/// What comes after a step.
+/// Marks of what comes after a step.
 struct StepFlags {
   bool failed;  ///< a particle has
   bool sorts;   ///< particles have to be sorted
@@ -70,7 +70,7 @@ class OverRanks {
 
  private:
   bool tools_have_moved() const;
-  /// Whether a block is near a tool as it was when ranks met, so that all ranks have to have it.
+  /// True if a block is near a tool as it was when ranks met, so that all ranks have to have it.
   Halo::Everywhere near_tool() const;
 
   Communicator& ranks_;

@@ -148,7 +148,7 @@ struct Chosen {
   std::string brought;
 };
 
-/// Of a set, or null.
+/// Values of a set, or null.
 const double* brought_values(const ParticleSet& set, const std::string& name) {
   for (const NamedScalar& scalar : set.brought) {
     if (scalar.name == name) return scalar.values.data();
@@ -174,7 +174,7 @@ void number_rows(std::vector<std::int64_t>& rows) {
   }
 }
 
-// Where each particle is written: its number among the chosen ones in order of id, by id; -1: not chosen.
+// Row in which each particle is written: its number among the chosen ones in order of id, by id; -1: not chosen.
 std::vector<std::int64_t> rows_of(const std::vector<SetView>& sets, std::size_t particles,
                                   const ParticleChoice& choice) {
   std::vector<std::int64_t> rows(particles, -1);
@@ -244,7 +244,7 @@ std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std
   for (const std::string& name : names) {
     const auto has = [&](const SetView& view) { return brought_values(view.set, name) != nullptr; };
     const bool brought = std::any_of(sets.begin(), sets.end(), has);
-    const Field* field = brought ? nullptr : find_field(name);  // what a module brings stands for a law's own
+    const Field* field = brought ? nullptr : find_field(name);  // field of a law, unless a module brings it
     fields.push_back({field, name});
     if (field == nullptr) {
       if (!brought) refuse(name, sets);
@@ -268,7 +268,7 @@ std::int64_t by_id(const SetView& view, int p) { return view.set.id[p]; }
 template <class T>
 void fill_own(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, int threads,
               std::vector<std::vector<T>>& columns) {
-  std::vector<std::int64_t> first;  // of each set
+  std::vector<std::int64_t> first;  // first row of each set
   std::int64_t size = 0;
   for (const SetView& view : sets) {
     first.push_back(size);

@@ -47,8 +47,8 @@ struct Size {
   }
 };
 
-/// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
-/// (`half` of it) is half beyond it; an absorbing face gives way by as much.
+/// Distance that a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its
+/// box (`half` of it) is half beyond it; an absorbing face gives way by as much.
 double beyond(WallKind kind, double half) {
   if (kind == WallKind::periodic) return kPeriodicReach;
   return kind == WallKind::none ? 0.0 : half;
@@ -57,7 +57,7 @@ double beyond(WallKind kind, double half) {
 /// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
 void make_rings(const SimulationDefinition& definition, const DeformableBody& body, double per_area,
                 const GridLayout& layout, const Size& size, ParticleSet& set) {
-  constexpr double kOffAxis = 1e-6;  // of a cell; on the axis itself v_r / r is no number
+  constexpr double kOffAxis = 1e-6;  // part of a cell; on the axis itself v_r / r is no number
   const AxisRules& rules = definition.method.axis;
   set.whole_domains = rules.domains == AxisDomains::whole;
   set.planar_functions = rules.functions == AxisFunctions::planar;
@@ -167,7 +167,7 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
   return set;
 }
 
-/// Of a body whose particles are all here, those that this rank keeps.
+/// Leaves, of a body whose particles are all here, those that this rank keeps.
 template <class T>
 void leave(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
   if (values.empty()) return;

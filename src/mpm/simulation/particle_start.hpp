@@ -18,8 +18,8 @@ namespace mpm {
 /// Particles of a body on all ranks.
 std::uint64_t whole_of(const DeformableBody& body);
 
-/// Of a definition that has all particles on every rank: leaves this rank's own. Does nothing to one that was built for
-/// ranks. Collective, without a word.
+/// Leaves this rank's own particles in a definition that has all of them on every rank. Does nothing to one that was
+/// built for ranks. Collective, without a word.
 void leave_own(SimulationDefinition& definition, const Communicator& ranks, const GridLayout& layout);
 
 /// `first`: id of the body's first particle; `ranks`: null for a process that is alone. Collective. Adds to `warnings`.
@@ -28,7 +28,7 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout, std::uint32_t first,
                      Communicator* ranks, std::vector<std::string>& warnings, StopCheck& check_stop);
 
-/// Of a body's particles on all ranks [kg]. Collective.
+/// Mass of a body's particles on all ranks [kg]. Collective.
 double total_mass(const ParticleSet& set, const DeformableBody& body, Communicator* ranks);
 /// The least mass of a particle on any rank, or of one whose place no surface cuts (`whole`) [kg]. Collective.
 double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks, bool whole = false);

@@ -14,8 +14,8 @@ namespace {
 constexpr const char* kRanks = "ranks_written";
 constexpr const char* kParts = "parts/";
 
-/// How many numbers have one checksum and are written at once: no more than HDF5's cache of a chunk holds (1 MiB), and
-/// so few that each rank has some chunks to write, but not fewer than are worth a write.
+/// Count of numbers that have one checksum and are written at once: no more than HDF5's cache of a chunk holds (1 MiB),
+/// and so few that each rank has some chunks to write, but not fewer than are worth a write.
 constexpr std::uint64_t kMostChunk = 1 << 16, kLeastChunk = 1 << 10, kChunksEach = 4;
 
 std::uint64_t quotient_up(std::uint64_t number, std::uint64_t by) { return (number + by - 1) / by; }
@@ -47,7 +47,7 @@ class Chunks {
   std::uint64_t size_ = 2;  ///< even, as the checksum is of pairs of bytes
 };
 
-/// Of one number [bytes].
+/// Size of one number [bytes].
 std::size_t size_of(StateArchive::Number number) {
   switch (number) {
     case StateArchive::Number::uint8:
@@ -140,7 +140,7 @@ void RanksWriter::write_chunks(const std::string& name, Number number, const std
     places = gather_list(ranks_, places);
     if (places.empty()) return;  // the first rank has failed
   }
-  // What lies in a chunk that begins before this rank's part.
+  // Parts of a chunk that begins before this rank's part.
   std::vector<Communicator::Parcel> parcels;
   const std::uint64_t until = std::min(end, first * chunks.size());
   if (begin < until) {
@@ -160,7 +160,7 @@ void RanksWriter::write_chunks(const std::string& name, Number number, const std
     if (chunks.one()) {
       attempt([&] { file_->array(name, number, chunk_.data(), chunks.all()); });
     } else {
-      chunk_.resize(chunks.size() * size);  // of the last one the rest is zero
+      chunk_.resize(chunks.size() * size);  // fills the rest of the last one with zeros
       attempt([&] { chunks_->write(places[chunk], chunk_.data(), chunk_.size()); });
     }
   }

@@ -40,9 +40,9 @@ class RanksWriter final : public StateArchive {
   void write_chunks(const std::string& name, Number number, const std::vector<std::uint64_t>& parts, const void* data);
 
   Communicator& ranks_;
-  std::unique_ptr<Hdf5Writer> file_;     ///< of the first rank
+  std::unique_ptr<Hdf5Writer> file_;     ///< file of the first rank
   std::unique_ptr<ChunkWriter> chunks_;  ///< into the same file
-  std::string failure_;                  ///< of this rank
+  std::string failure_;                  ///< failure of this rank
   std::vector<std::byte> chunk_;         ///< that is put together of parts
 };
 
@@ -58,9 +58,9 @@ class RanksReader final : public StateArchive {
   std::size_t stored(const std::string& name) override;
 
  private:
-  /// How much of an array each rank has.
+  /// Parts of an array that each rank has.
   std::vector<std::uint64_t> parts_of(const std::string& name);
-  /// Of what is shared out: the first number of this rank, and how many it gets.
+  /// First number of this rank in what is shared out, and how many it gets.
   std::pair<std::uint64_t, std::uint64_t> share_of(const std::vector<std::uint64_t>& parts) const;
 
   Hdf5Reader file_;

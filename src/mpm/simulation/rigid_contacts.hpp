@@ -16,7 +16,7 @@ ContactLaw rigid_contact_law(const SimulationDefinition& definition, const Rigid
 
 bool same_law(const ContactLaw& a, const ContactLaw& b);
 
-/// Of every rigid body against every set; the sets of a body together.
+/// Laws of every rigid body against every set; the sets of a body together.
 std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definition,
                                            const std::vector<ParticleSet>& sets);
 

@@ -73,7 +73,7 @@ class RigidMotion final : public Module {
  private:
   /// @throws RigidError for a body at a periodic face
   void check_periodic(const RigidBody& body) const;
-  /// Of the body's surface, `ahead` [s] after `start` [s]; [m/s]
+  /// Largest speed of the body's surface, `ahead` [s] after `start` [s]; [m/s]
   double largest_speed(const RigidBody& body, double start, double ahead) const;
 
   std::vector<RigidBody>& bodies_;
@@ -90,8 +90,8 @@ void RigidMotion::check_periodic(const RigidBody& body) const {
                   body.name(), face, face[0]));
 }
 
-// Of the body's origin plus what its rotation adds at its farthest corner. A body without end ends with the domain,
-// `domain` long, and does not count along an axis that the grid does not have. With what the motion that nobody
+// Speed of the body's origin plus what its rotation adds at its farthest corner. A body without end ends with the
+// domain, `domain` long, and does not count along an axis that the grid does not have. With what the motion that nobody
 // prescribes may gain in `ahead` [s].
 double RigidMotion::largest_speed(const RigidBody& body, double start, double ahead) const {
   Vec3 domain = definition_.grid.max - definition_.grid.min;

@@ -186,7 +186,7 @@ void Simulation::State::serialise(StateArchive& archive) {
   serialise_particles(archive);
   serialise_grid(archive);
   if (over && !archive.merging()) over->serialise(archive);
-  archive.set_generation(fields.front()->blocks.generation());  // of all: they are rebuilt together
+  archive.set_generation(fields.front()->blocks.generation());  // generation of all: they are rebuilt together
   {
     const StateArchive::Group group(archive, "mechanics");
     mechanics->serialise(archive);

@@ -12,7 +12,7 @@ namespace mpm {
 
 struct ShippedModules {
   void (*add)(RunParts&);
-  /// Of the numbers that its modules bring, those that a scene may choose as global quantities: name and unit.
+  /// Numbers of its modules that a scene may choose as global quantities: name and unit.
   std::vector<std::pair<std::string, std::string>> numbers = {};
 };
 

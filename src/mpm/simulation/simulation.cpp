@@ -31,7 +31,7 @@ std::string tool_at(const std::vector<RigidBody>& bodies, const Vec3& point, dou
                      least <= 0.0 ? "inside" : fmt::format("{:.2g} cells from", least), nearest->name());
 }
 
-/// What is to be changed first where the method is one that is known to fail (doc/methods.md, doc/contact.md).
+/// Advice on what to change first if the method is one that is known to fail (doc/methods.md, doc/contact.md).
 std::string known_to_fail(const SimulationDefinition& definition) {
   const ShapeKind shape = definition.method.shape;
   std::string text;

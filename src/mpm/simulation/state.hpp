@@ -36,7 +36,7 @@ class LineFit {
 
 /// Impulse and wrench that contact gives a rigid body, on the way from one sync point to the next.
 struct PeriodWrench {
-  double time = 0.0;                                            ///< of the last sync point [s]
+  double time = 0.0;                                            ///< time of the last sync point [s]
   Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero();  ///< since the start, there [N s], [N m s]
   Wrench mean;                                                  ///< over the period before it
 };
@@ -56,10 +56,10 @@ struct MaterialTotals {
 struct RunTotals {
   MaterialTotals material;
   EnergyReport energy;
-  /// Of groups of one set's particles. Those of a group asleep hold until it changes (ParticleSet::rest_changes).
+  /// Sums of groups of one set's particles. Those of a group asleep hold until it changes (ParticleSet::rest_changes).
   struct OfGroups {
     std::vector<MaterialTotals> sums;
-    std::vector<std::uint32_t> changes;  ///< when they were found
+    std::vector<std::uint32_t> changes;  ///< values of rest_changes when they were found
     std::vector<std::uint8_t> found_asleep;
   };
   std::vector<OfGroups> of_set;
@@ -77,11 +77,11 @@ struct Simulation::State {
   std::function<void(const Settling&)> settling;
 
   std::vector<ParticleSet> sets;
-  std::vector<std::uint64_t> sizes;  ///< of each set, on all ranks
-  std::vector<Law> laws;             ///< of each set
+  std::vector<std::uint64_t> sizes;  ///< size of each set, on all ranks
+  std::vector<Law> laws;             ///< law of each set
   FieldMap field_map;
   Fields fields;
-  std::unique_ptr<NodeChoice> choice;  ///< of particles near cracks
+  std::unique_ptr<NodeChoice> choice;  ///< choice of fields by particles near cracks
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
@@ -97,39 +97,40 @@ struct Simulation::State {
   std::chrono::duration<double> wall{0.0};
   StepLimit material_limit;  ///< as surveyed at the last sync point
   StepLimit previous_limit;  ///< as surveyed at the one before
-  StepLimit limit;           ///< of the last steps
+  StepLimit limit;           ///< limit of the last steps
   EnergyWatch energy_watch;
-  RunTotals totals;              ///< when last asked for
-  bool foreign_modules = false;  ///< whether the caller added modules of its own
+  RunTotals totals;              ///< sums when last asked for
+  bool foreign_modules = false;  ///< true if the caller added modules of its own
   bool failed = false;
-  std::vector<LineFit> rates;          ///< of each metric; those without a window stay empty
-  std::vector<PeriodWrench> wrenches;  ///< of each rigid body; empty where no metric is a force or a torque
+  std::vector<LineFit> rates;          ///< rate of each metric; those without a window stay empty
+  std::vector<PeriodWrench> wrenches;  ///< wrench of each rigid body; empty where no metric is a force or a torque
 
-  /// Of every field.
+  /// Layout of every field.
   const GridLayout& layout() const { return fields.front()->layout; }
   /// The shipped modules that the definition asks for, those of the caller, and the mechanics.
   void add_modules(const std::vector<AddModules>& of_caller);
-  /// Of each set, for particle fields (particle_view.hpp).
+  /// Views of each set, for particle fields (particle_view.hpp).
   std::vector<SetView> views() const;
   /// @throws DefinitionError for a particle field that the run does not have
   void check_field(const std::string& name) const;
-  /// What the account of that name says that the material was given since the start; zero without one [N s].
+  /// Impulse given to the material since the start by the account of that name; zero without one [N s].
   Vec3 impulse(const std::string& account) const;
-  /// Of all modules.
+  /// Numbers of all modules.
   std::vector<NamedNumber> numbers() const;
   /// At a sync point, for metrics that are forces and torques.
   void find_wrenches();
-  /// Where the particles with ids [first, last), those of some bodies, are in what read_fields() gives.
+  /// Rows of the particles with ids [first, last), those of some bodies, in what read_fields() gives.
   std::pair<std::size_t, std::size_t> rows_of(std::uint64_t first, std::uint64_t last) const;
   /// The value that the first rank found.
   double from_first(double value) const;
-  /// Of all particles [N s].
+  /// Momentum of all particles [N s].
   Vec3 momentum() const;
-  /// What the material allows now.
+  /// Limit of the step by the material now.
   StepLimit survey_material() const;
   /// The same of an implicit step.
   StepLimit survey_motion() const;
-  /// What material and modules allow in the sync period, when the material has gone from one limit to the other.
+  /// Limit of the step by material and modules in the sync period, when the material has gone from one limit to the
+  /// other.
   /// @throws DampingError
   StepLimit step_limit(const StepLimit& before, const StepLimit& now) const;
   /// Notes what part of a cell the fastest wave crossed in a step of dt [s].
@@ -177,8 +178,8 @@ struct ParticleTensors {
   double j;                ///< det f
 };
 ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, int p);
-/// Of a particle that expands, what its law has seen (kernel/free_strain.hpp); free strain across a plane or a line
-/// counts as J of the law there, too.
+/// Tensors that the law of an expanding particle has seen (kernel/free_strain.hpp); free strain across a plane or a
+/// line counts as J of the law there, too.
 ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTensors tensors);
 
 }  // namespace mpm

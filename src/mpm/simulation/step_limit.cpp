@@ -77,7 +77,7 @@ double exceeded_by(double part, const T* v, int count, double largest, int threa
 /// Largest shear of the domains that particles awake have now, at most the limit.
 template <int Dim>
 double largest_shear(const ParticleSet& set, const GridLayout& layout, int threads) {
-  double half[Dim][Dim];  // of F's components, from the undeformed box to cells
+  double half[Dim][Dim];  // half edges for F's components, from the undeformed box to cells
   for (int k = 0; k < Dim; ++k) {
     for (int c = 0; c < Dim; ++c) half[k][c] = set.half[k] * layout.cell(k) * layout.inverse_cell(c);
   }

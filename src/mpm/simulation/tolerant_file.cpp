@@ -16,7 +16,7 @@
 namespace mpm {
 namespace {
 
-/// What HDF5 passes around; its own part comes first.
+/// File that HDF5 passes around; its own part comes first.
 struct TolerantFile {
   H5FD_t common{};
   int descriptor = -1;
@@ -79,7 +79,7 @@ herr_t set_end_of_space(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 
 haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t) { return of(file).end_of_file; }
 
-/// What lies beyond the end of the file, or was not written, is zero.
+/// Reads zeros for what lies beyond the end of the file, or was not written.
 herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void* buffer) {
   auto* to = static_cast<char*>(buffer);
   while (size > 0) {
@@ -130,7 +130,7 @@ hid_t driver() {
     static H5FD_class_t type{};
 #if H5_VERSION_GE(1, 14, 0)
     type.version = H5FD_CLASS_VERSION;
-    type.value = static_cast<H5FD_class_value_t>(600);  // of the range for programs' own
+    type.value = static_cast<H5FD_class_value_t>(600);  // number of the range for programs' own
 #endif
     type.name = "mpm_tolerant";
     type.maxaddr = (haddr_t{1} << 62) - 1;

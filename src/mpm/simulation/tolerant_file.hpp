@@ -1,4 +1,4 @@
-// How HDF5 reaches the disk when a checkpoint is written. Private to this folder.
+// Driver by which HDF5 reaches the disk when a checkpoint is written. Private to this folder.
 //
 // HDF5 cannot let go of a file that it could not write: closing it fails, its memory stays, and the library tries again
 // when the process ends, where that is a segmentation fault. This file driver therefore tells the library that every

@@ -11,7 +11,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kDistinguished = 0.9;  ///< of a thin tool's faces: less is worth a warning
+constexpr double kDistinguished = 0.9;  ///< part of a thin tool's faces: less is worth a warning
 
 /// Says what becomes of the two sides of a body, and adds it to `sides` if they have a field each.
 void look_at(const RigidBody& body, RunParts& parts, ToolSides* sides) {

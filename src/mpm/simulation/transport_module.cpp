@@ -15,7 +15,7 @@
 namespace mpm {
 namespace {
 
-/// Of the unstrained material [m/s].
+/// Speed of waves in the unstrained material [m/s].
 double wave_speed(const Law& law) {
   return std::visit(
       [](const auto& own) { return own.wave_speed(Matrix3<double>::identity(), Symmetric3<double>{}, 1.0); }, law);

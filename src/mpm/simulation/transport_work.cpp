@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMostStages = 1e5;   ///< in a step
 constexpr double kManyStages = 15.0;  ///< in a step: a pass over the particles each, they are most of its work
-constexpr double kMostRatio = 1e12;   ///< of a step to the stable one, of which the stages are an integer
+constexpr double kMostRatio = 1e12;   ///< ratio of a step to the stable one, of which the stages are an integer
 constexpr double kGravity = 9.81;     ///< [m/s^2]
 constexpr double kWater = 1000.0;     ///< [kg/m^3]
 

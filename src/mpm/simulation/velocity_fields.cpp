@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-// Of each body: one where one crack divides it; three where several may meet at a node.
+// Number of fields across cracks of each body: one where one crack divides it; three where several may meet at a node.
 std::vector<int> fields_across_cracks(const SimulationDefinition& definition) {
   std::vector<int> across;
   for (const DeformableBody& body : definition.bodies) {

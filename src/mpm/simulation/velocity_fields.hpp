@@ -1,4 +1,4 @@
-// Which velocity fields a scene has: one for each group of bodies that its bodies name, a second one for a group
+// Velocity fields of a scene: one for each group of bodies that its bodies name, a second one for a group
 // that thin tools divide, and more for one that cracks divide (grid/field_map.hpp). Private to this folder.
 #pragma once
 
@@ -15,7 +15,7 @@ FieldMap field_map(const SimulationDefinition& definition);
 /// The fields with walls, `count` of them, without blocks yet. @throws GridError
 Fields make_fields(const SimulationDefinition& definition, int count);
 
-/// Of the bodies that cracks divide; null if there are none.
+/// Choice for the bodies that cracks divide; null if there are none.
 std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields);
 
 }  // namespace mpm

@@ -12,11 +12,11 @@ namespace mpm {
 namespace {
 
 constexpr SleepPace kExplicit{8, 4, 8};
-constexpr SleepPace kImplicit{1, 1, 1};  // of which one costs as much as many of the others
+constexpr SleepPace kImplicit{1, 1, 1};  // steps, of which one costs as much as many of the others
 constexpr int kWorthThreads = 1000;      ///< nodes
 constexpr double kNearTool = 4.0;        ///< cells: nearer to a tool nothing sleeps
 constexpr double kAtOnce = 3.0;          ///< times `wake`, from which on a block wakes after this step
-constexpr double kSlowNodes = 4.0;       ///< of the speed of sleep, below which nodes are damped
+constexpr double kSlowNodes = 4.0;       ///< times the speed of sleep, below which nodes are damped
 
 }  // namespace
 
@@ -37,7 +37,7 @@ bool Sleep::tool_near(const std::array<int, 3>& block, double dt) const {
   const double half = 0.5 * box.size().norm();
   for (const RigidBody& body : parts_.bodies) {
     const Box bounds = body.world_bounds();
-    // How far its surface comes until the next look.
+    // Finds how far its surface comes until the next look.
     const Vec3 size = bounds.size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
     const double speed = body.twist().linear.norm() + size.norm() * body.twist().angular.norm();
     const double margin = kNearTool * layout_.largest_cell() + pace_.between_looks * dt * speed;
@@ -283,7 +283,7 @@ void Sleep::grid_advanced(StepContext& context) {
   given_.setZero();
 }
 
-// Where another number of ranks reads a checkpoint particles are sorted once more, for which nobody sleeps or wakes.
+// Does nothing in the sort after another number of ranks has read a checkpoint: nobody sleeps or wakes for it.
 void Sleep::before_sort() {
   asleep_.follow_moves();
   if (just_read_) return;
@@ -396,7 +396,7 @@ void Sleep::serialise(StateArchive& archive) {
   if (!archive.reading()) return;
   steps_waited_ = 0;
   at_once_ = false;
-  for (std::size_t i = 0; i < waited.size(); i += 2) {  // of each rank where others read it
+  for (std::size_t i = 0; i < waited.size(); i += 2) {  // values of each rank, if others read it
     steps_waited_ = std::max(steps_waited_, waited[i]);
     at_once_ = at_once_ || waited[i + 1] != 0;
   }

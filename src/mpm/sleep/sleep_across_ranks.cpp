@@ -11,10 +11,10 @@
 namespace mpm {
 namespace {
 
-// Why a rank names a block to the others.
+// Reason why a rank names a block to the others.
 enum What : std::int32_t { kAny, kWakes, kFallsAsleep, kAsksForces, kAsksMeans };
 
-/// What a rank's part of a block gives to the grid.
+/// Forces that a rank's part of a block gives to the grid.
 struct Part {
   std::uint64_t key;
   std::int32_t field;

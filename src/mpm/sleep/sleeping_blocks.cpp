@@ -158,7 +158,7 @@ void SleepingBlocks::follow_moves() {
   for (std::size_t s = 0; s < first_.size(); ++s) follow_moves(s);
 }
 
-// Which they are: mpm::permute() (particles/permute.hpp).
+// Follows the moves that mpm::permute() makes (particles/permute.hpp).
 void SleepingBlocks::follow_moves(std::size_t s) {
   ParticleSet& set = sets_[s];
   const int before = std::exchange(first_[s], set.awake()), first = set.awake();
@@ -182,9 +182,9 @@ std::size_t SleepingBlocks::particles() const {
   return count;
 }
 
-// Whose a particle is is stored by place; lists in order of place are what waking makes of any order. What a block
-// gives to the grid is shared out where another number of ranks reads it, and so are the particles, which others may
-// get: then the block sleeps on several ranks.
+// Stores the owner of each particle by its place: waking brings lists of any order into that of places. If another
+// number of ranks reads them, the particles and what a block gives to the grid are shared out; a block then sleeps on
+// several ranks.
 void SleepingBlocks::serialise(StateArchive& archive) {
   serialise_blocks(archive);
   for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -258,8 +258,7 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
   }
 }
 
-// Where the particles of several ranks are read as one list those asleep are scattered in it; they become the last
-// ones.
+// Makes those asleep the last ones: they are scattered where the particles of several ranks are read as one list.
 void SleepingBlocks::take_places(std::size_t s, std::vector<std::uint64_t> block_of, bool merging) {
   ParticleSet& set = sets_[s];
   std::vector<std::uint32_t> order(block_of.size());
@@ -274,7 +273,7 @@ void SleepingBlocks::take_places(std::size_t s, std::vector<std::uint64_t> block
     reorder(set.id);
     if (!set.side.empty()) reorder(set.side);
     reorder(block_of);
-    set.begin.clear();  // of what was there before
+    set.begin.clear();  // forgets the blocks of what was there before
   }
   set.sorts_by_id = merging;
   set.asleep = static_cast<int>(order.end() - asleep);

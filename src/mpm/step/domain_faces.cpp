@@ -64,7 +64,7 @@ FaceParts DomainFaces::parts(int set, int particle, DomainFace face) const {
   const ParticleSet& own = sets_[set];
   FaceParts parts = face_parts(settings_.geometry, domain_of(own, particle), face, across(own, particle));
   if (own.surface.empty() || own.mass == 0.0) return parts;
-  // Where a surface cuts the particle's place, the face of a flat end has the share of it that lies in the body.
+  // Face of a flat end has the share of the particle's place that lies in the body, where a surface cuts it.
   const double share = own.mass_of(particle) / own.mass;
   parts.area *= share;
   for (int c = 0; c < parts.corners; ++c) parts.corner[c].area *= share;
@@ -86,7 +86,7 @@ NodeShares shares_around(const GridLayout& layout, const PlacedDomain::Vector& a
     low[k] = static_cast<int>(cells);
     beyond[k] = layout.in_cells(k, at[k]) - cells;
   }
-  double sum = 0.0;  // of the hats of nodes that carry mass: 1, but where dirac or folded splines leave one out
+  double sum = 0.0;  // sum of the hats of nodes that carry mass: 1, but where dirac or folded splines leave one out
   for (int i = 0; i < 1 << dim; ++i) {
     std::array<int, 3> node{};
     double hat = 1.0;
@@ -107,7 +107,7 @@ NodeShares shares_around(const GridLayout& layout, const PlacedDomain::Vector& a
   return found;
 }
 
-/// Of a node by its numbers; block -1 if the field does not have it or it carries nothing.
+/// Finds a node by its numbers; block -1 if the field does not have it or it carries nothing.
 NodeRef find_carrying(const Grid& grid, const std::array<int, 3>& node) {
   std::array<int, 3> block{};
   int local = 0;

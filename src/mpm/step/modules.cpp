@@ -18,7 +18,7 @@ constexpr std::array<AtHook<Context>, kHooks> kAtHook = {
     &StageWith<Context>::before_strain,  &StageWith<Context>::forces_gathered, &StageWith<Context>::momentum_updated,
     &StageWith<Context>::velocity_found, &StageWith<Context>::increment_found, &StageWith<Context>::grid_advanced};
 
-/// What an archive takes as the name of a group.
+/// Name that an archive takes for a group.
 std::string group_name(std::string name) {
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';

@@ -31,7 +31,7 @@ AxisWeights axis_weights(const Grid& grid, ShapeKind shape, int k, double cells)
   return {static_cast<int>(below), 2, {1.0 - (cells - below), cells - below}};
 }
 
-/// Whether a place may be looked up along an axis: nodes may be as far as a block beyond the domain.
+/// True if a place may be looked up along an axis: nodes may be as far as a block beyond the domain.
 bool has_nodes(const GridLayout& layout, int k, double cells) {
   return cells >= 2 - kBlockEdge && cells <= layout.last_node(k) + kBlockEdge - 2;
 }

@@ -211,7 +211,7 @@ void Sorter::fill_groups(ParticleSet& set, const Scratch& scratch) const {
   for (std::size_t o = 0; o < owners; ++o) {
     std::uint32_t* group = set.group.data() + set.group_begin[o];
     const std::uint32_t begin = set.begin[o], end = set.begin[o + 1];
-    int last = -1;  // where the particles of the current group are
+    int last = -1;  // place of the particles of the current group
     for (std::uint32_t first = begin, p = begin; p < end; ++p) {
       const int place = scratch.node[p] >> shift;
       if (place == last && p - first < lanes) continue;

@@ -17,8 +17,8 @@ double square(double x) { return x * x; }
 /// A block that a wall pushes, by its moments about the pole of its log spiral.
 struct SpiralBlock {
   double coefficient = std::numeric_limits<double>::infinity();  ///< K_p; infinite for a pole that leaves no block
-  double moment = 0.0;                                           ///< of its weight
-  double end = 0.0;                                              ///< where the spiral meets the surface
+  double moment = 0.0;                                           ///< moment of its weight
+  double end = 0.0;                                              ///< place where the spiral meets the surface
 };
 
 /// The block of rough_wall_coefficient() for one pole (x, z): a wall from the foot (0, -1) to the surface z = 0, and a

@@ -20,7 +20,7 @@ namespace mpm::study {
 namespace manufactured_problem {
 
 constexpr double kDensity = 1000.0, kYoung = 1000.0;  // so that c is 1 m/s
-constexpr double kPeriod = 2.0;                       // of sin(c pi t) [s]
+constexpr double kPeriod = 2.0;                       // period of sin(c pi t) [s]
 
 constexpr Elasticity kElasticity = {kYoung, 0.3};
 

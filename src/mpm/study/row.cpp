@@ -12,7 +12,7 @@ namespace {
 
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-/// How a column is written and read.
+/// Writing and reading of a column.
 struct RowColumn {
   const char* name;
   std::string (*write)(const Row&);

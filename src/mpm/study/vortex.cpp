@@ -20,7 +20,7 @@ namespace vortex_problem {
 
 constexpr double kDensity = 1000.0;
 constexpr Elasticity kElasticity = {1000.0, 0.3};
-constexpr double kInner = 0.625, kOuter = 1.375;  // of the body, around the ring [m]
+constexpr double kInner = 0.625, kOuter = 1.375;  // radii of the body, around the ring [m]
 constexpr double kEnd = 1.0;                      // one turn there and back [s]
 
 double angle(double turn, double time, double R) {

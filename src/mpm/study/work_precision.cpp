@@ -24,7 +24,7 @@ std::ofstream create(const fs::path& path) {
   return file;
 }
 
-/// Whether the short study leaves methods out on this suite.
+/// True if the short study leaves methods out on this suite.
 bool main_alone(const Suite& suite, const StudyOptions& options) { return suite.costly && !options.full; }
 
 void write_texts(std::ostream& out, const std::vector<const Suite*>& chosen, const StudyOptions& options) {

@@ -42,7 +42,7 @@ std::string movable(const std::string& text, const std::string& path, const std:
   return YAML::Dump(moved) + "\n";
 }
 
-/// What a run sets that the scene refused: "plan.yaml:4: run 17, grid.cell = -1: " and the scene's reason.
+/// Refuses what a run sets and the scene does not take: "plan.yaml:4: run 17, grid.cell = -1: " and the scene's reason.
 [[noreturn]] void refuse(const Plan& plan, int run, const std::vector<Setting>& settings, const std::string& reason) {
   for (const Setting& setting : settings) {
     const std::string place = "--set " + override_of(setting) + ": ";

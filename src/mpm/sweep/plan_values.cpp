@@ -9,7 +9,7 @@
 namespace mpm::sweep {
 namespace {
 
-constexpr int kMostPoints = 10000;  // of one grid
+constexpr int kMostPoints = 10000;  // points of one grid
 
 /// A number with the unit behind it; the dimension is the scene's to check.
 struct Quantity {
@@ -129,7 +129,7 @@ std::string one_line(const YAML::Node& node) {
   YAML::Emitter emitter;
   emitter << copy;
   std::string text = emitter.c_str();
-  std::replace(text.begin(), text.end(), '\n', ' ');  // where the emitter breaks a long list
+  std::replace(text.begin(), text.end(), '\n', ' ');  // joins lines of a long list that the emitter breaks
   return text;
 }
 

@@ -12,12 +12,12 @@ namespace mpm::sweep {
 /// A value as `--set` takes it: YAML on one line.
 std::string one_line(const YAML::Node& node);
 
-/// What stands under a parameter.
+/// Values that stand under a parameter.
 struct ParameterValues {
   std::vector<std::string> values;  ///< empty for draws
   bool drawn = false;
   Distribution distribution;
-  std::string unit;  ///< of what is drawn, empty for plain numbers
+  std::string unit;  ///< unit of what is drawn, empty for plain numbers
 };
 /// Reads {values: [...]}, {grid: {...}}, {uniform: {...}}, {log_uniform: {...}} or {normal: {...}}. @throws SceneError
 ParameterValues read_values(const Value& value);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostDraws = kMostRuns;
 
-/// Whether a path is another, or lies inside it.
+/// True if a path is another, or lies inside it.
 bool inside(const std::string& path, const std::string& other) {
   return path == other || (path.size() > other.size() && path.compare(0, other.size() + 1, other + ".") == 0);
 }

@@ -29,7 +29,7 @@ void TransportedField::sharpen() {
   }
 }
 
-// What came to the nodes goes to the particles.
+// Hands to the particles what came to the nodes.
 void TransportedField::finish(double start, double dt, bool sees) {
   const bool by_volume = definition_.method == RateMethod::particle_capacity;
   const std::size_t sets = parts_.sets.size(), fields = parts_.fields.size();

@@ -11,8 +11,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kOnFace = 1e-6;  ///< of a cell: a node so far outside a region is on its face
-constexpr double kLight = 1e-10;  ///< of the lightest particle, see conduct()
+constexpr double kOnFace = 1e-6;  ///< part of a cell: a node so far outside a region is on its face
+constexpr double kLight = 1e-10;  ///< part of the lightest particle, see conduct()
 
 }  // namespace
 

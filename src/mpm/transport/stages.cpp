@@ -6,7 +6,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kEuler = 0.25;  ///< of a stable step: a longer one of Euler's method errs more than three stages cost
+constexpr double kEuler = 0.25;  ///< part of a stable step: in a longer one Euler's method errs more than stages cost
 
 }  // namespace
 

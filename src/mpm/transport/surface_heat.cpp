@@ -147,7 +147,7 @@ double SurfaceHeat::constants(const std::vector<NodalQuantity>& nodes, int field
 void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, double start, double dt) {
   NodalQuantity& of = nodes[touch.field];
   const double whole = whole_of(touch);
-  const bool keeps = ranks_ == nullptr || touch.by_tool;  // what all ranks keep and give alike
+  const bool keeps = ranks_ == nullptr || touch.by_tool;  // true for what all ranks keep and give alike
   if (!(whole > 0.0)) {
     if (keeps) kept_ += touch.friction;
     return;

@@ -14,8 +14,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kWait = 1.0;        ///< of the step that one stage can take, which an update may wait for
-constexpr double kRoundOff = 1e-13;  ///< of a sum over all particles and updates, relative to what is summed
+constexpr double kWait = 1.0;        ///< part of the step of one stage that an update may wait for
+constexpr double kRoundOff = 1e-13;  ///< part of a sum over all particles and updates, relative to what is summed
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void Transport::prepare_expansion() {
     parts_.sets[s].bring("free_strain_before", "1");
     parts_.sets[s].bring("free_strain_grown", "1");
   }
-  if (expands_) expands_for_ = 1e-9 * static_cast<double>(sync_);  // where the start is not free of strain
+  if (expands_) expands_for_ = 1e-9 * static_cast<double>(sync_);  // time for a start that is not free of strain
 }
 
 template <class Term>
@@ -171,7 +171,7 @@ double Transport::budget_error(const TransportedField& field) const {
 }
 
 void Transport::numbers(std::vector<NamedNumber>& list) const {
-  const double once = parts_.ranks == nullptr || parts_.ranks->first() ? 1.0 : 0.0;  // of what all ranks know
+  const double once = parts_.ranks == nullptr || parts_.ranks->first() ? 1.0 : 0.0;  // weight of what all ranks know
   for (const auto& field : fields_) {
     const auto kind = static_cast<int>(field->quantity());
     const std::string name = kQuantityNames[kind], unit = kContentUnits[kind];

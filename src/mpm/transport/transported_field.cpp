@@ -13,8 +13,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kBeyond = 0.1;    ///< of the range of given values, by which FLIP's scatter may leave it
-constexpr double kLargest = 1e30;  ///< of any quantity
+constexpr double kBeyond = 0.1;    ///< part of the range of given values by which FLIP's scatter may leave it
+constexpr double kLargest = 1e30;  ///< largest value of any quantity
 
 }  // namespace
 

@@ -12,24 +12,24 @@ namespace mpm_ros {
 
 namespace {
 
-/// How far a body reaches from its origin [m]; endless axes do not count.
+/// Reach of a body from its origin [m]; endless axes do not count.
 double reach_of(const mpm::RigidBody& body) {
   const mpm::Box bounds = body.surface().bounds();
   const mpm::Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
   return corner.unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; }).norm();
 }
 
-/// How far the command moves some point of its body in a sync period, at most [m]; infinite when it overflows.
+/// Largest distance that the command moves a point of its body in a sync period [m]; infinite when it overflows.
 double travel_of(const AppliedCommand& command, const mpm::Simulation& simulation) {
   const mpm::RigidBody& body = simulation.rigid_body(command.body);
   const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
-  // What the geometry does not have is no motion: a link beside the plane of a planar scene.
+  // Motion that the geometry does not have is none: a link beside the plane of a planar scene.
   const mpm::GeometryKind geometry = simulation.definition().geometry;
   if (command.kind == CommandKind::wrench) {
     const mpm::FreeMotion* free = body.free_motion();
-    if (free == nullptr) return 0.0;  // which the body refuses
+    if (free == nullptr) return 0.0;  // refused by the body
     const mpm::FreeDefinition& of = free->definition();
-    double acceleration = 0.0;  // what it gains in a period it may travel in the next
+    double acceleration = 0.0;  // gain of a period, which it may travel in the next
     for (int k = 0; k < 3; ++k) {
       if (of.axes[k]) acceleration += std::abs(command.wrench.force[k]) / of.mass;
       if (of.axes[3 + k]) acceleration += std::abs(command.wrench.torque[k]) / of.inertia(k, k) * reach_of(body);

@@ -53,7 +53,7 @@ mpm::Twist present_twist(const mpm::RigidBody& body, std::int64_t now) {
 }  // namespace
 
 double braking_speed(double distance, double acceleration, double period) {
-  const double step = acceleration * period;  // of speed, a period
+  const double step = acceleration * period;  // change of speed in a period
   if (!std::isfinite(step)) return distance / period;
   // From (n + f) steps, f < 1, it goes on for f, 1 + f, ..., n + f steps of speed: n (n + 1) / 2 + f (n + 1) in all.
   const double share = distance / (step * period);
@@ -65,7 +65,7 @@ double braking_speed(double distance, double acceleration, double period) {
 
 namespace {
 
-/// What the body would refuse once it is applied is refused now. @throws mpm::RigidError
+/// Refuses now what the body would refuse once it is applied. @throws mpm::RigidError
 void check_prescribed(const AppliedCommand& command, const mpm::Simulation& simulation) {
   mpm::RigidBody body = simulation.rigid_body(command.body);
   if (command.kind == CommandKind::velocity) {

@@ -151,7 +151,7 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
   };
   waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), ended), waiting_.end());
 
-  // Of the poses to come the earliest first, since one that sets out holds back those after it.
+  // Takes the earliest of the poses to come first, since one that sets out holds back those after it.
   const auto effect = [now](const BodyCommand& command) {
     return command.late ? now : std::min(command.stamp.value_or(now), now);
   };

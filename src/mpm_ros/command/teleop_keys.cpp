@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFaster = 1.25;   // a press of +
 constexpr char kEndOfText = 0x03;  // Ctrl-C
-// Of each axis the key that moves it on and the one that moves it back; in the order of a twist.
+// Keys of each axis: the one that moves it on and the one that moves it back; in the order of a twist.
 constexpr std::array<std::array<char, 2>, 6> kKeys{
     {{'w', 's'}, {'a', 'd'}, {'r', 'f'}, {'l', 'j'}, {'i', 'k'}, {'u', 'o'}}};
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kFirstLine = "#ROSBAG V2.0\n";
 constexpr std::uint8_t kIndex = 4, kChunk = 5, kConnection = 7;  // kinds of records
-constexpr std::size_t kEntry = 12, kPlace = 8;                   // of an index: a time, then a place in the chunk
+constexpr std::size_t kEntry = 12, kPlace = 8;                   // sizes in an index: a time, then a place in the chunk
 
 /// A file as it lies on the disk, in memory.
 class MappedFile {
@@ -102,7 +102,7 @@ Record record_at(std::string_view bytes, std::size_t at) {
 
 /// The chunk that was read last: what indices behind it name.
 struct Chunk {
-  std::vector<std::uint32_t> places;  // of its records, where they can be seen
+  std::vector<std::uint32_t> places;  // places of its records, if they can be seen
   bool packed = false;
   std::uint32_t size = 0;  // unpacked
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPart = "_part";
 
-/// Whether `name` is `stem`_partNNNN`extension`, whatever the number.
+/// True if `name` is `stem`_partNNNN`extension`, whatever the number.
 bool is_part(const std::string& name, const std::string& stem, const std::string& extension) {
   const std::string begin = stem + kPart;
   if (name.size() <= begin.size() + extension.size() || name.compare(0, begin.size(), begin) != 0) return false;

@@ -15,7 +15,7 @@ bool is_place(const std::string& field) {
 
 namespace {
 
-constexpr double kResolved = 0.01;              ///< of a cell
+constexpr double kResolved = 0.01;              ///< part of a cell
 constexpr double kFloatStep = 1.0 / (1 << 23);  ///< largest distance of float32 numbers, as a part of them
 
 bool is_place_of(const sensor_msgs::PointField& field) {
@@ -72,7 +72,7 @@ std::map<std::string, mpm::Vec3> origins_of(const tf2_msgs::TFMessage& message) 
 sensor_msgs::PointCloud2 in_world(const sensor_msgs::PointCloud2& cloud, const mpm::Vec3& origin) {
   struct Part {
     std::uint32_t from, to, bytes;
-    int axis;  ///< of a place; -1: copied as it is
+    int axis;  ///< axis of a place; -1: copied as it is
   };
   const auto size_of = [](const sensor_msgs::PointField& field) -> std::uint32_t {
     return field.datatype == sensor_msgs::PointField::FLOAT64 ? 8 : 4;

@@ -22,8 +22,8 @@ std_msgs::ColorRGBA color(float red, float green, float blue, float alpha) {
   return value;
 }
 
-/// Of a face of a rigid body: seen through, since material and contact lie behind; lighter or darker by where it faces,
-/// but in no light so dark as to be lost on RViz's dark background.
+/// Colour of a face of a rigid body: seen through, since material and contact lie behind; lighter or darker by where it
+/// faces, but in no light so dark as to be lost on RViz's dark background.
 std_msgs::ColorRGBA face_color(const std::array<mpm::Vec3, 3>& triangle) {
   const mpm::Vec3 light = mpm::Vec3(0.35, -0.45, 0.8).normalized();
   const mpm::Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
@@ -31,7 +31,7 @@ std_msgs::ColorRGBA face_color(const std::array<mpm::Vec3, 3>& triangle) {
   return color(0.80F * shade, 0.85F * shade, 0.92F * shade, 0.5F);
 }
 
-constexpr double kCrackWidth = 0.004;  ///< of a crack's length
+constexpr double kCrackWidth = 0.004;  ///< part of a crack's length
 
 }  // namespace
 

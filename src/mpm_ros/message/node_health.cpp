@@ -21,7 +21,7 @@ constexpr int kLinesInQuiet = 20;         // refusals logged in that time
 constexpr std::size_t kMostLines = 1000;  // distinct lines remembered
 constexpr std::size_t kLongestLine = 600;
 
-/// What others wrote (names of frames and bodies) is quoted in reasons: one line of plain text, whatever it was.
+/// Makes one line of plain text of what others wrote (names of frames and bodies), to be quoted in reasons.
 std::string one_line(std::string text) {
   if (text.size() > kLongestLine) text = text.substr(0, kLongestLine) + "...";
   std::replace_if(

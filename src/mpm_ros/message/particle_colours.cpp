@@ -15,7 +15,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr double kBeyond = 0.01;     ///< part of the values that lies beyond each end
-constexpr double kNarrowing = 0.05;  ///< of the way to a narrower range, each cloud
+constexpr double kNarrowing = 0.05;  ///< part of the way to a narrower range, each cloud
 constexpr double kBarAt = 1.17;      ///< right of the view's focus, in radii of what it shows
 
 using Rgb = std::array<double, 3>;

@@ -17,7 +17,7 @@ namespace {
 
 /// Distance of the eye over the radius of what is to be seen: RViz's field of view is 45 degrees high.
 constexpr double kDistance = 2.4;
-/// How far right of the focus the camera looks when a colour bar stands there, in radii of what is to be seen.
+/// Distance right of the focus that the camera looks when a colour bar stands there, in radii of what is to be seen.
 constexpr double kAside = 0.15;
 /// Particles below this part of that radius are too small for their shape to be seen.
 constexpr double kSmall = 0.01;
@@ -30,7 +30,7 @@ std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::strin
   };
   if (there(wished)) return wished;
   const std::string first = names.size() > 4 ? names[4] : std::string();  // after x, y, z and id
-  if (is_transported(first)) return first;                                // what the scene is about
+  if (is_transported(first)) return first;                                // field that the scene is about
   for (const char* name : {"speed", "p"}) {
     if (there(name)) return name;
   }

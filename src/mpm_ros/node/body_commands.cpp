@@ -73,7 +73,7 @@ void BodyCommands::stop_listening() {
 }
 
 CommandMemory BodyCommands::fresh_memory(const mpm::Scene& scene) const {
-  // What was recorded is within the limits already.
+  // Commands that were recorded are within the limits already.
   std::vector<mpm::MotionLimits> limits = log_.empty() ? limits_of(scene) : std::vector<mpm::MotionLimits>();
   return {CommandQueue(scene.definition.time.sync),
           CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
@@ -127,7 +127,7 @@ void BodyCommands::look_at_lag(const Run& run) {
   const auto [frame_ahead, frame] = bridge_->follower().farthest_ahead(run.stamps().at(now));
   const CommandReader::Newest newest = bridge_->reader().newest();
   const double command_ahead = static_cast<double>(newest.stamp - now) * 1e-9;
-  // What is stamped at present is ahead by the lag; a plan may be by anything.
+  // Commands stamped at present are ahead by the lag; a plan may be by anything.
   const bool frames_wait = frame_ahead > 0.5 * lag;
   if (!frames_wait && !(command_ahead > 0.5 * lag)) {
     health_.lag({});
@@ -167,7 +167,7 @@ void BodyCommands::apply_limited(Run& run) {
   }
 }
 
-/// Why it was refused, or empty.
+/// Reason why it was refused, or empty.
 std::string BodyCommands::apply(Run& run, const AppliedCommand& command) {
   const mpm::RigidBody& body = run.simulation().rigid_body(command.body);
   const mpm::Drive before = body.drive();
@@ -196,7 +196,7 @@ std::string BodyCommands::apply(Run& run, const AppliedCommand& command) {
   return {};
 }
 
-/// Why the run ends, or empty.
+/// Reason why the run ends, or empty.
 std::string BodyCommands::act_on_silence(Run& run) {
   const std::int64_t now = run.simulation().time();
   for (const Silence& silent : memory_.watch.silent(now)) {

@@ -21,7 +21,7 @@ HeightMaps wait_for_height_maps(const ros::NodeHandle& node, const std::string& 
   HeightMaps maps;
   maps.set = set;
   for (const mpm::HeightTopic& field : mpm::height_topics(scene, set)) {
-    ros::CallbackQueue queue;  // of its own: nothing else spins yet
+    ros::CallbackQueue queue;  // queue of its own: nothing else spins yet
     ros::NodeHandle listening(node);
     listening.setCallbackQueue(&queue);
     HeightMap::ConstPtr message;

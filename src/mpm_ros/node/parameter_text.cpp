@@ -136,7 +136,7 @@ std::vector<std::string> overrides_in(const std::string& text) {
   const auto end_item = [&] {
     if (const std::string whole = trimmed(std::exchange(item, {})); !whole.empty()) items.push_back(unquoted(whole));
   };
-  // Where the next item could begin, from a comma or blank on.
+  // Finds where the next item could begin, from a comma or blank on.
   const auto next = [&rest](std::size_t at) {
     while (at < rest.size() && (rest[at] == ',' || blank(rest[at]))) ++at;
     return at;

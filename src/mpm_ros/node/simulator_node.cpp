@@ -22,7 +22,7 @@ namespace mpm_ros {
 
 namespace {
 
-/// How long the solver's thread sleeps at most before it looks whether it is to stop.
+/// Longest time that the solver's thread sleeps before it looks whether it is to stop.
 constexpr std::chrono::milliseconds kGlance{50};
 /// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;

@@ -15,13 +15,13 @@ namespace mpm_ros {
 
 namespace {
 
-/// How long a step waits for command messages that are on their way, by the wall's clock.
+/// Time that a step waits for command messages that are on their way, by the wall's clock.
 constexpr std::chrono::milliseconds kPatience{5000};
 /// [s] of simulated time; its nanoseconds are still a whole number of 64 bits.
 constexpr double kLongestStep = 1e9;
 /// Number of commands of one request; each is checked, applied, published and recorded at one sync point.
 constexpr std::size_t kMostCommands = 10'000;
-/// How often it looks whether the node is to stop.
+/// Time between looks whether the node is to stop.
 constexpr std::chrono::milliseconds kPoll{50};
 
 }  // namespace
@@ -179,7 +179,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
     return;
   }
 
-  // What comes on topics from here on waits for the next step: where it took effect would depend on when it came.
+  // Keeps what comes on topics from here on for the next step: its effect would depend on when it came.
   commands_.hold();
   std::string refusal;
   ContactAverage contacts;

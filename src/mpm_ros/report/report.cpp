@@ -188,11 +188,11 @@ class Reader {
     return run;
   }
 
-  /// Of the tables, one a bag; empty when none were written.
+  /// Folders of the tables, one a bag; empty when none were written.
   const std::vector<std::string>& folders() const { return folders_; }
 
  private:
-  /// Where the tables of a bag go; empty: nowhere.
+  /// Folder for the tables of a bag; empty: nowhere.
   std::string folder_of(const std::string& label) {
     if (!options_.csv.empty()) return options_.bags.size() == 1 ? options_.csv : options_.csv + "/" + label;
     if (options_.plots.empty() && options_.animate.empty()) return {};

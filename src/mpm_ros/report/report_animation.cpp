@@ -91,7 +91,7 @@ void Animation::particles(std::int64_t time, const sensor_msgs::PointCloud2& mes
   }
   rows_.resize(values.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const mpm::Vec3 place = mpm::Vec3(x.at(i), y.at(i), z.at(i)) - corner_;  // which float32 holds anywhere
+    const mpm::Vec3 place = mpm::Vec3(x.at(i), y.at(i), z.at(i)) - corner_;  // place that float32 holds anywhere
     rows_[i] = {static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z()),
                 static_cast<float>(values.at(i))};
   }

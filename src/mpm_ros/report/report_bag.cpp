@@ -23,7 +23,7 @@
 namespace mpm_ros {
 namespace {
 
-constexpr const char* kBegin = "#ROSBAG";  // of a bag of any version
+constexpr const char* kBegin = "#ROSBAG";  // beginning of a bag of any version
 
 template <typename Message>
 std::string type_of() {

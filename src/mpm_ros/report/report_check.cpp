@@ -15,11 +15,11 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::int64_t kStampRounding = 1;  // [ns]: a time in double precision is rounded to whole nanoseconds
-constexpr double kStepRounding = 1e-9;      // of steps: N equal steps between sync points of whole nanoseconds
-constexpr double kUnitLimit = 1e-9;         // of a quaternion's norm: it is renormalised every step
+constexpr double kStepRounding = 1e-9;      // rounding of steps: N equal steps between sync points of whole nanoseconds
+constexpr double kUnitLimit = 1e-9;         // error of a quaternion's norm: it is renormalised every step
 constexpr std::size_t kGapsListed = 10;
-constexpr double kBalanceLimit = 0.01;  // of the energy that was spent
-// Of impulses on bodies over their size: sums on the grid, which is double whatever the particles are.
+constexpr double kBalanceLimit = 0.01;  // part of the energy that was spent
+// Limit for impulses on bodies over their size: sums on the grid, which is double whatever the particles are.
 constexpr double kImpulseLimit = audit_limit(mpm::Precision::float64);
 
 bool finite(const mpm::Vec3& vector) { return vector.allFinite(); }

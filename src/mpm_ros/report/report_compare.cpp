@@ -60,7 +60,7 @@ std::string side_by_side(const std::string& title, const std::vector<RecordedRun
                          Figures (*figures)(const RecordedRun&)) {
   std::vector<std::string> header = {title};
   std::vector<Figures> columns;
-  std::vector<std::string> names;  // of all rows, each once
+  std::vector<std::string> names;  // names of all rows, each once
   for (const RecordedRun& run : runs) {
     header.push_back(run.label);
     columns.push_back(figures(run));

@@ -33,7 +33,7 @@ struct Worst {
   std::string field;
 };
 
-/// What one topic's messages differ by.
+/// Differences of one topic's messages.
 class Comparison {
  public:
   explicit Comparison(bool to_the_bit) : to_the_bit_(to_the_bit) {}

@@ -20,7 +20,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kMostRows = 40;  // of runs that are printed one by one
+constexpr int kMostRows = 40;  // rows of runs that are printed one by one
 
 /// The number in a cell; NaN where there is none.
 double cell_number(const std::string& cell) {

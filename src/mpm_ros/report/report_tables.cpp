@@ -78,7 +78,7 @@ std::string body_contacts(const RunStatistics& statistics, bool axisymmetric) {
          contact_table("body", statistics.body_statistics(), axisymmetric);
 }
 
-/// Of scenes with contact between deformable bodies; else nothing.
+/// Table of scenes with contact between deformable bodies; else nothing.
 std::string pair_contacts(const RunStatistics& statistics) {
   if (statistics.pair_statistics().empty()) return {};
   return "Contact of deformable bodies: force on the second of each pair, world axes\n" +
@@ -130,7 +130,7 @@ std::string audit_table(const RunStatistics& statistics) {
                      table.text(), number(last.momentum_exchanged), last.momentum_error);
 }
 
-/// Of scenes that ask for global quantities; else nothing.
+/// Table of scenes that ask for global quantities; else nothing.
 std::string global_table(const RunStatistics& statistics) {
   if (statistics.global_statistics().empty()) return {};
   TextTable table({"quantity", "unit", "start", "end", "least", "most"});

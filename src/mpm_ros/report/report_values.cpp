@@ -54,7 +54,7 @@ class List {
   std::vector<ComparedValue> values_;
 };
 
-/// What the machine took, which is no part of the run. Names are as the scene writes them.
+/// True for what the machine took, which is no part of the run. Names are as the scene writes them.
 bool of_machine(const std::string& quantity) {
   return strcasecmp(quantity.c_str(), "elapsed time") == 0 || strcasecmp(quantity.c_str(), "cpu time") == 0;
 }

@@ -41,7 +41,7 @@ constexpr double kManyCells = 1e9;  ///< across a tool, for which there are figu
 
 std::string percent_text(double part) { return fmt::format("{:.2g} %", 100.0 * part); }
 
-/// How to run with `lines` in place of a target.
+/// Advice on how to run with `lines` in place of a target.
 std::string repeat_text(const std::vector<std::string>& lines) {
   std::string text = "leave 'target' out of the scene";
   if (!lines.empty()) text += " and write";
@@ -114,7 +114,7 @@ class Chooser {
   }
 
  private:
-  /// Why there is no candidate.
+  /// Throws, with the reason why there is no candidate.
   [[noreturn]] void fail() const {
     if (left_out_) {
       throw mpm::SceneError(fmt::format(
@@ -240,7 +240,7 @@ class Chooser {
     }
   }
 
-  /// Of a particle's step, such that StepCosts::pace() gives the pace that is expected of the whole run [s].
+  /// Cost of a particle's step, such that StepCosts::pace() gives the pace that is expected of the whole run [s].
   double seconds_of(const Forecast& forecast) const {
     return costs_.sync / (costs_.steps(costs_.base) * static_cast<double>(forecast.particles) * pace_of(forecast));
   }
@@ -347,7 +347,7 @@ class Chooser {
   mpm::pace::StepCosts costs_;
   std::vector<Candidate> candidates_;
   JudgedTools tools_;
-  bool left_out_ = false;  ///< of candidates, one that could not be run
+  bool left_out_ = false;  ///< true if a candidate could not be run
 };
 
 }  // namespace

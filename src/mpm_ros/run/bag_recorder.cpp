@@ -159,7 +159,7 @@ void BagRecorder::check_there() {
   const std::string part = part_path(path_, part_);
   const std::optional<FileNumber> there = file_at(part);
   if (there ? *there == opened_ : errno != ENOENT && errno != ENOTDIR) return;
-  // What is written goes to a file without a name, which frees its space with this.
+  // Closes a file without a name, to which all is written; this frees its space.
   try {
     if (bag_) bag_->close();
     bag_.reset();

@@ -81,7 +81,7 @@ mpm::pace::TimedFactors compare(const mpm::Scene& scene, const Forecast& before,
   } catch (const mpm::Error&) {
     // A method that there is not: it will not be proposed.
   } catch (const std::bad_alloc&) {
-    // What there is no room to time is not proposed either.
+    // Leaves out of the proposals what there is no room to time.
   }
   return timed;
 }

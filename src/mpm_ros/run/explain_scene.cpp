@@ -1,4 +1,4 @@
-// What `run_scene --explain` tells of a scene.
+// Text that `run_scene --explain` tells of a scene.
 #include <fmt/format.h>
 
 #include <utility>
@@ -30,7 +30,7 @@ void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostre
                               settling_news([&](const std::string& line) { out << line << std::endl; }),
                               {},
                               stop_overdue});
-  // What a run writes is checked as a run checks it.
+  // Checks what a run writes, as a run does.
   const OutputOptions output = output_options(scene);
   check_fields(output);
   const RunOutputs outputs(simulation, Stamps(), output);

@@ -51,7 +51,7 @@ JudgedTools judged_tools(const mpm::Scene& scene, const std::optional<mpm::pace:
     tools.all.push_back({target.use, ground, whole});
     tools.names.emplace_back();
   }
-  // How deep a blade that no rehearsal found in the ground will dig is not known.
+  // Depth that a blade will dig is not known if no rehearsal found it in the ground.
   const bool has_length = target.length || !tools.names.front().empty() || target.use == mpm::pace::ToolUse::plate;
   for (ToolInGround& tool : tools.all) {
     if (has_length && tool.use && ground && errors.covers(tool, geometry, implicit)) continue;

@@ -71,7 +71,7 @@ void Run::begin() {
   resume_clock();
 }
 
-// What the node keeps beside is there when the node has saved; run_scene has no commands that could wait.
+// Data that the node keeps beside are there if the node has saved; run_scene has no commands that could wait.
 void Run::serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more) {
   {
     const mpm::StateArchive::Group group(archive, "outputs");

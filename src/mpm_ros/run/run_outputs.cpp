@@ -29,7 +29,8 @@ std::int64_t in_syncs(double period, std::int64_t sync) {
 /// The longest contact arrow, as a part of the domain's longest edge.
 constexpr double kArrowLength = 0.25;
 
-/// Of the longest contact arrow [m]; axes that the scene does not have, such as the turn about an axis, do not count.
+/// Length of the longest contact arrow [m]; axes that the scene does not have, such as the turn about an axis, do not
+/// count.
 double arrow_length(const mpm::SimulationDefinition& scene) {
   mpm::Vec3 size = scene.grid.max - scene.grid.min;
   for (const int axis : mpm::axes_beside(scene.geometry)) size[axis] = 0.0;
@@ -255,7 +256,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
     if (read_at_ != simulation_.time()) read_contacts();
     if (failed) read_cuts();
     write_bodies();
-    if (!average_.empty()) write_contacts();  // what failed within a period may have written all up to its start
+    if (!average_.empty()) write_contacts();  // writes none if a run that failed within a period has
   }
   write_state(true, real_time_factor);
   if (failed || cracks_at_ != simulation_.time()) write_cracks();

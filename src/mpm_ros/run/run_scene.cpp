@@ -106,7 +106,7 @@ class OfflineRun {
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
-      if (scene_.commands[body].frame.empty() || rerun_) continue;  // what was recorded moves it
+      if (scene_.commands[body].frame.empty() || rerun_) continue;  // skips bodies that the recording moves
       err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
                          scene_.definition.rigid_bodies[body].name);
     }
@@ -123,7 +123,7 @@ class OfflineRun {
     if (run_->recorder() != nullptr && run_->recorder()->replaced())
       err << "note: the recording " << run_->bag() << " is replaced\n";
     bool failed = false, room = true;
-    // Where one record cannot go on, what else was asked for is written.
+    // Writes what else was asked for if one record cannot go on.
     const auto recorded = [&](const auto& work) {
       const auto no_room = [&](const std::exception& error) {
         progress.clear();
@@ -243,7 +243,7 @@ class OfflineRun {
     try_folder("--vtk", options_.vtk);
   }
 
-  /// When there is something to write. Files for ParaView on all ranks, in the folder that the first one has.
+  /// Opens sinks if there is something to write. Files for ParaView on all ranks, in the folder that the first one has.
   void open_sinks() {
     mpm::Communicator* ranks = options_.ranks.get();
     if (ranks != nullptr) options_.vtk = mpm::first_text(*ranks, options_.vtk);

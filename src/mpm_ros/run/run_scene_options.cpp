@@ -32,7 +32,7 @@ std::string problem_of_new_file(const std::string& path) {
 /// The recorded scene, to where the recording ends.
 mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
   mpm::Scene scene = mpm::parse_scene(rerun.info.scene_text, rerun.info.scene_path, options.set);
-  // What failed is given the time to fail again.
+  // Gives a run that failed the time to fail again.
   const std::int64_t after = rerun.failed ? 2 * scene.definition.time.sync : 0;
   scene.definition.time.end = static_cast<double>(rerun.end + after) * 1e-9;
   return scene;

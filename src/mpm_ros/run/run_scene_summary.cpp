@@ -39,7 +39,7 @@ nlohmann::ordered_json json_of(const Value& value) {
   return vector != nullptr ? array(*vector) : nlohmann::ordered_json(std::get<double>(value));
 }
 
-/// What the lists of quantities.hpp count since the start, under their keys.
+/// Values that the lists of quantities.hpp count since the start, under their keys.
 template <class Report, class Message>
 nlohmann::ordered_json ends_of(const Report& report, const std::vector<Quantity<Report, Message>>& quantities) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -63,7 +63,8 @@ nlohmann::ordered_json energy_json(const mpm::SolverState& state) {
   return json;
 }
 
-/// What was asked, chosen, expected of the choice, and reached. The error of the force is not known of a run alone.
+/// Summary of what was asked, chosen, expected of the choice, and reached. The error of the force is not known of a run
+/// alone.
 nlohmann::ordered_json target_json(const mpm::pace::Target& target, double reached) {
   nlohmann::ordered_json json;
   if (target.real_time) json["real_time"] = *target.real_time;
@@ -141,7 +142,7 @@ nlohmann::ordered_json RunSummary::json() const {
   if (!cut_short) root["state_hash"] = hash_text(state_hash);
   root["energy"] = {{"start", energy_json(start)}, {"end", energy_json(state)}};
   root["momentum_error"] = state.audit.residual;
-  // Of a body by quantity and body, of a pair the other way round.
+  // Keys are quantity, then body; for a pair the other way round.
   root["contact_impulse"] = root["friction_energy"] = nlohmann::ordered_json::object();
   for (const mpm::ContactReport& contact : contacts.bodies) {
     const nlohmann::ordered_json ends = ends_of(contact, contact_quantities());

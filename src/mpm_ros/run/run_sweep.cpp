@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kLook{3};
 /// Part of the memory that runs may take, and what a run takes over its particles' least: outputs, the grid's spare
 /// nodes.
 constexpr double kMemoryPart = 0.8, kMemoryTimes = 1.5;
-constexpr double kProgramMemory = 64e6;  ///< of a process without particles [bytes]
+constexpr double kProgramMemory = 64e6;  ///< memory of a process without particles [bytes]
 constexpr int kMostTold = 5;             ///< failed runs that the end of a sweep names
 
 /// As many runs at once as cores and memory carry.
@@ -105,7 +105,7 @@ std::string kept(const Study& study, int runs) {
                      runs);
 }
 
-/// What has come of all runs, into sweep.csv and to the user.
+/// Writes what has come of all runs into sweep.csv and to the user.
 RunSweepResult tell(const Study& study, int held, std::ostream& out) {
   const SweepTable table = read_sweep(study);
   write_sweep(table, study.table());

@@ -24,7 +24,7 @@ void make_folder(const std::string& path) {
   if (error) throw SweepError(fmt::format("{}: the folder cannot be made ({}); choose another", path, error.message()));
 }
 
-/// What is in the folder is kept: a study is laid out in a new one, an empty one, or its own.
+/// Keeps what is in the folder: a study is laid out in a new one, an empty one, or its own.
 void check_free(const Study& study) {
   std::error_code ignored;
   if (fs::exists(study.lock(), ignored) || !fs::exists(study.folder(), ignored)) return;

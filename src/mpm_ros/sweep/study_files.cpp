@@ -22,7 +22,7 @@ namespace {
                                  room ? "make room on its disk" : "check the folder and its permissions"));
 }
 
-/// What was written to an open file or folder reaches the disk. True also where the file system knows no such thing.
+/// Brings to the disk what was written to an open file or folder. True also where the file system knows no such thing.
 bool reach_disk(int descriptor) { return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 bool write_all(int descriptor, const std::string& text) {

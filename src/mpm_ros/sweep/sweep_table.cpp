@@ -67,7 +67,7 @@ SweepTable read_sweep(const Study& study) {
   const int runs = plan.runs();
   std::vector<std::vector<std::string>> values(plan.parameters.size());
   std::vector<RunResult> results;
-  std::vector<std::string> metrics;  // of all runs, each once
+  std::vector<std::string> metrics;  // metrics of all runs, each once
   for (int run = 1; run <= runs; ++run) {
     const std::vector<mpm::sweep::Setting> settings = plan.settings(run);
     for (std::size_t i = 0; i < settings.size(); ++i) values[i].push_back(settings[i].value);

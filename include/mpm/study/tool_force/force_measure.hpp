@@ -1,4 +1,4 @@
-// What a run of a tool in soil shows, sync point by sync point: mean force over a stretch of the way, its part across,
+// Measures of a run of a tool in soil, sync point by sync point: mean force over a stretch of the way, its part across,
 // its swing over the travel of a cell, and how pressure differs between the particles of one cell.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace mpm::study::tool_force {
 
-/// How pressure, positive in compression, differs between particles of one cell, over all looks.
+/// Differences of pressure, positive in compression, between particles of one cell, over all looks.
 class PressureScatter {
  public:
   /// Particles at `places` [m] of a grid of cells of size `cell` [m].
@@ -42,7 +42,7 @@ class ForceMeasure final : public Measure {
 
   const Problem& problem_;
   double cells_;
-  double start_ = 0.0;  ///< of the tool along the push [m]
+  double start_ = 0.0;  ///< place of the tool along the push [m]
   bool begun_ = false;
   std::vector<double> travel_, force_, lift_;  ///< over length; [N]
   double next_scatter_;                        ///< travel at which pressure is looked at again

@@ -1,4 +1,4 @@
-// What a problem of the suite measures in a run, sync point by sync point.
+// Measure of a problem of the suite in a run, sync point by sync point.
 #pragma once
 
 #include "mpm/simulation/simulation.hpp"
@@ -11,7 +11,7 @@ class Measure {
   virtual ~Measure() = default;
   /// At the start and at each sync point. @throws PhysicsError for a run that has blown up
   virtual void look(Simulation& simulation) = 0;
-  /// Whether the run has shown all that is measured.
+  /// True if the run has shown all that is measured.
   virtual bool done() const = 0;
   /// Fills in what was measured.
   virtual void report(ForceRow& row) const = 0;

@@ -19,13 +19,13 @@ namespace mpm::study::tool_force {
 
 class Measure;
 
-/// What the scene of a problem is written with.
+/// Numbers that the scene of a problem is written with.
 struct Setup {
   double cells = 8.0;    ///< across the depth or width; blades take halves, too
   std::string law = {};  ///< "mohr_coulomb", "drucker_prager/plane_strain" with its match; the problem's own when empty
 };
 
-/// What is known of the force.
+/// Kind of answer that is known for the force.
 enum class Known {
   exact,
   bounds,   ///< it lies between two values
@@ -34,9 +34,9 @@ enum class Known {
 
 struct Problem {
   std::string name;         ///< "blade_flat"
-  std::string title;        ///< of a chart
-  std::string text;         ///< what is computed, in a sentence or two
-  std::string answer_text;  ///< what is known and its source
+  std::string title;        ///< title of a chart
+  std::string text;         ///< statement of what is computed, in a sentence or two
+  std::string answer_text;  ///< statement of what is known and its source
   Known known = Known::exact;
   Bounds answer;                ///< mean force along `push`, of the whole tool [N]
   bool grows = false;           ///< in proportion to the travel; `answer` is that at travel = `length`
@@ -46,18 +46,18 @@ struct Problem {
   double length = 0.0;          ///< depth or width that cells count across [m]
   double from = 0.0, to = 0.0;  ///< travel over `length` on which the force is averaged
   bool moves_on = false;        ///< the tool passes cells: its force is followed over the travel of one, for the ripple
-  double speed = 0.0;           ///< of the tool [m/s]
+  double speed = 0.0;           ///< speed of the tool [m/s]
   double ramp = 0.0;            ///< time in which it reaches it [s]
-  double wave_speed = 0.0;      ///< of the material, elastic [m/s]
-  std::string law = "drucker_prager/plane_strain";  ///< of the soil, unless another is asked for
+  double wave_speed = 0.0;      ///< wave speed of the material, elastic [m/s]
+  std::string law = "drucker_prager/plane_strain";  ///< law of the soil, unless another is asked for
   bool quick = false;                               ///< the short suite runs it
   std::array<bool, 2> has_places = {};              ///< it can be moved within a cell along x, along z
   double finest = 24.0;                             ///< most cells of the long suite, where a run takes minutes
-  Box pressed;                                      ///< where pressure is looked at, from the tool's origin [m]
+  Box pressed;                                      ///< box where pressure is looked at, from the tool's origin [m]
   /// Text of its scene. @throws StudyError for a setup that it cannot have
   std::function<std::string(const Problem&, const Setup&)> scene;
-  /// What is compared with `answer` in a run on so many cells, where it is not the force on a slow tool; `from` and
-  /// `to` are then times [s]. The problem outlives it.
+  /// Measure that is compared with `answer` in a run on so many cells, where it is not the force on a slow tool; `from`
+  /// and `to` are then times [s]. The problem outlives it.
   std::function<std::unique_ptr<Measure>(const Problem&, double)> measure = {};
 
   const std::string& law_of(const Setup& setup) const { return setup.law.empty() ? law : setup.law; }
@@ -81,7 +81,7 @@ std::string soil_material(const std::string& law, double density, double young, 
 std::string time_section(const Problem& problem, const Setup& setup);
 /// Expression of the tool's speed, for `motion`.
 std::string speed_expression(const Problem& problem);
-/// Of a pressure wave in elastic material [m/s].
+/// Speed of a pressure wave in elastic material [m/s].
 double elastic_wave(double density, double young, double poisson);
 
 std::vector<Problem> blades();

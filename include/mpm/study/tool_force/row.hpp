@@ -15,8 +15,8 @@ namespace mpm::study::tool_force {
 struct ForceRow {
   std::string problem;
   double cells = 0.0;
-  std::string variant;  ///< what was set beside the scene, "contact.method=nodes"; or empty
-  std::string contact, shape, update, transfer, law;  ///< what the run used
+  std::string variant;                                ///< settings beside the scene, "contact.method=nodes"; or empty
+  std::string contact, shape, update, transfer, law;  ///< methods that the run used
   bool average_dilatation = false;
   std::uint64_t particles = 0, steps = 0;
 
@@ -33,7 +33,7 @@ struct ForceRow {
   double scatter = kUnknown;      ///< standard deviation of pressure inside a cell, over its mean, in Problem::pressed
   double unloaded = kUnknown;     ///< part of the particles there with less than 1 % of the mean pressure
   double imbalance = kUnknown;    ///< energy stored and dissipated beyond the work done, over the tool's work
-  double cpu_seconds = kUnknown;  ///< of the steps, on one thread [s]
+  double cpu_seconds = kUnknown;  ///< time of the steps, on one thread [s]
   double real_time_factor = kUnknown;  ///< simulated time over that processor time
   std::string status;                  ///< "ok"; "failed", the run blew up or ended in an error; "refused" at load
   std::string message;

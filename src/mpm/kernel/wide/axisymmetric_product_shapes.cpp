@@ -1,4 +1,4 @@
-// How the weights of the shape functions that are products along the axes are made, about an axis of symmetry.
+// Making of the weights of the shape functions that are products along the axes, about an axis of symmetry.
 #include "mpm/kernel/weights.hpp"
 #include "mpm/shape/axisymmetric.hpp"
 

@@ -9,7 +9,7 @@ using Interpolator = ProductInterpolator<T, Dim, 3, true>;
 
 }  // namespace
 
-/// Of every axisymmetric shape function that is a product.
+/// Passes of every axisymmetric shape function that is a product.
 const mpm_kernel::PassFamily& axisymmetric_stencil3_passes() {
   static constexpr mpm_kernel::PassFamily kFamily = planar_passes_of<Interpolator>();
   return kFamily;

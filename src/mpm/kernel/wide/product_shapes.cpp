@@ -1,4 +1,4 @@
-// How the weights of the shape functions that are products along the axes are made.
+// Making of the weights of the shape functions that are products along the axes.
 #include "mpm/kernel/weights.hpp"
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/dirac.hpp"

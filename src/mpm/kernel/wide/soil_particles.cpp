@@ -1,4 +1,4 @@
-// What particles of soil and cells of the implicit step give to each other, a chunk of particles at a time. A
+// Exchange between particles of soil and cells of the implicit step, a chunk of particles at a time. A
 // particle's box is cut by the faces of the cells into up to eight pieces (implicit/soil_cells.hpp).
 //
 // About an axis a box is the section of a ring, cut off at r = 0, and its pieces are weighed with r, as the averages of
@@ -25,11 +25,11 @@ using mpm_kernel::SoilSums;
 
 constexpr double kThinnest = 1e-5;   ///< part of a box: a piece that is thinner is none
 constexpr double kDensest = 0.02;    ///< logarithmic volume: the most that is remembered of soil that is too dense
-constexpr double kMostStrain = 0.2;  ///< of volume, that a step may give a particle
+constexpr double kMostStrain = 0.2;  ///< strain of volume that a step may give a particle
 constexpr int kChunk = 64;
 constexpr int kPadded = kChunk + 16;  ///< and what the last register writes beyond them
 
-/// Where the boxes of a chunk of particles are cut along one axis, into a piece in each of two cells, of which one may
+/// Cuts of the boxes of a chunk of particles along one axis, into a piece in each of two cells, of which one may
 /// be empty: the lower cell, counted from the block's first one, the pieces' parts of the box, and their middles from
 /// the lower faces of their cells.
 template <class T>
@@ -104,7 +104,7 @@ struct Boxes {
   }
 };
 
-/// Where the two cells along an axis lie among the cells around a block: what they add to the number of the block, and
+/// Place of the two cells along an axis among the cells around a block: what they add to the number of the block, and
 /// to that of the cell inside it.
 struct Spot {
   int block[2], local[2];

@@ -38,7 +38,7 @@ using mpm_kernel::SoilPlaces;
 template <class T, CellKind Kind>
 inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const GroupNodes<T, Kind>& nodes,
                                                 Eight<T> (&e)[6]) {
-  // Of even and odd nodes apart, so that half as many sums wait for each other.
+  // Sums of even and odd nodes apart, so that half as many sums wait for each other.
   Eight<T> part[2][6] = {};
   for (int n = 0; n < nodes.kCount; ++n) {
     const Eight<T> x = load(group.gradient[0][n]), y = load(group.gradient[1][n]), z = load(group.gradient[2][n]);
@@ -62,7 +62,7 @@ inline __attribute__((always_inline)) void rate(const SoilGroup<T>& group, const
   e[5] = static_cast<T>(kOverRoot2) * xy;
 }
 
-/// What changes `d` of the stresses do to the velocities of the nodes.
+/// Changes the velocities of the nodes by changes `d` of the stresses.
 template <class T, CellKind Kind>
 inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, const SoilMask<T>* masks,
                                                   const Eight<T> (&d)[6], GroupNodes<T, Kind>& nodes) {
@@ -95,7 +95,7 @@ inline __attribute__((always_inline)) void spread(const SoilGroup<T>& group, con
   }
 }
 
-/// How a cell's rate of strain answers to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers
+/// Answer of a cell's rate of strain to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers
 /// that a velocity along the axis gives to e. What stands for it, a number for e_N and one for e_T, must not be less in
 /// any direction: sweeps would make energy where a node is light.
 template <class T>

@@ -9,7 +9,7 @@ using Interpolator = ProductInterpolator<T, Dim, 3, false>;
 
 }  // namespace
 
-/// Of every shape function of three values along an axis.
+/// Passes of every shape function of three values along an axis.
 const mpm_kernel::PassFamily& stencil3_passes() {
   static constexpr mpm_kernel::PassFamily kFamily = passes_of<Interpolator>();
   return kFamily;

@@ -9,7 +9,7 @@ using Interpolator = ProductInterpolator<T, Dim, 5, false>;
 
 }  // namespace
 
-/// Of every shape function of five values along an axis.
+/// Passes of every shape function of five values along an axis.
 const mpm_kernel::PassFamily& stencil5_passes() {
   static constexpr mpm_kernel::PassFamily kFamily = passes_of<Interpolator>();
   return kFamily;

@@ -22,7 +22,7 @@ constexpr double kThickness = 0.8 * kDepth, kTop = 1.5 * kDepth, kRise = 0.26794
 
 constexpr double kMean = 0.1;  ///< travel over depth, in the mean over the stretch on which force is taken
 
-constexpr double kHalfWidth = kDepth;  ///< of the blade in space, of which a half is modelled
+constexpr double kHalfWidth = kDepth;  ///< half the width of the blade in space, of which a half is modelled
 
 struct Kind {
   bool chisel = false, rough = false;

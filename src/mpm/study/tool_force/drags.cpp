@@ -15,7 +15,7 @@ namespace mpm::study::tool_force {
 namespace drag_problems {
 
 constexpr double kDepth = 0.2, kDensity = 1600.0, kGravity = 9.81, kYoung = 2e6, kPoisson = 0.3, kAngle = 30.0;
-constexpr double kThickness = 0.4 * kDepth;  ///< of the plate
+constexpr double kThickness = 0.4 * kDepth;  ///< thickness of the plate
 constexpr double kRod = 0.1;                 ///< width of the rod, of which a half is modelled; it is twice as deep
 
 std::string bed(const std::string& min, const std::string& max) {

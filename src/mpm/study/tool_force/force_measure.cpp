@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLooks = 5;            ///< at pressure, spread over the stretch of the mean
 constexpr std::size_t kFewest = 3;   ///< particles of a cell whose scatter counts
-constexpr double kNothing = 0.01;    ///< of the mean pressure: a particle that carries none
+constexpr double kNothing = 0.01;    ///< part of the mean pressure: a particle that carries none
 constexpr std::size_t kCurve = 200;  ///< points of a curve
 
 double mean(const std::vector<double>& values) {

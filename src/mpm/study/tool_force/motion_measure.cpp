@@ -9,7 +9,7 @@
 namespace mpm::study::tool_force {
 namespace {
 
-constexpr double kTooFast = 0.2;  // of an elastic wave
+constexpr double kTooFast = 0.2;  // part of the speed of an elastic wave
 constexpr double kSlower = 0.97;  // part of the particles that are slower than what falls
 
 double seconds_of(const Simulation& simulation) { return 1e-9 * static_cast<double>(simulation.time()); }

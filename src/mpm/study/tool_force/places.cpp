@@ -10,7 +10,7 @@
 namespace mpm::study::tool_force {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  ///< of a cell
+constexpr double kSamePlace = 1e-9;  ///< part of a cell
 
 /// Moves the coordinate `index` of a face that lies at `from`.
 void move_face(YAML::Node corner, std::size_t index, double from, double to, double cell) {

@@ -37,7 +37,7 @@ struct Run {
   Problem problem;
   Setup setup;
   Place place;
-  Overrides keys;  ///< of the scene
+  Overrides keys;  ///< keys of the scene
 
   /// With explicit steps, unless a variant names others.
   Scene scene() const {

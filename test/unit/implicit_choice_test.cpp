@@ -57,6 +57,10 @@ TEST(ImplicitChoice, LeavesExplicitStepsToAllElse) {
       {"time.step=0.001"},  // a single explicit step is as long
       {"grid.cell=0.4", "grid.max=[2, 0.8]"},
       {"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
+      {"materials=[{name: sand, law: j2_plasticity, density: 1600, young: 1 MPa, poisson: 0.3, yield_stress: 2 kPa}]"},
+      {"materials=[{name: sand, law: mu_i, density: 1500, young: 1 MPa, poisson: 0.3, mu_s: 0.38, mu_2: 0.64, I_0: "
+       "0.28, "
+       "grain_diameter: 1 mm, grain_density: 2500}]"},
       {"boundaries.x_min=absorbing"}};
   for (const auto& overrides : others) EXPECT_FALSE(takes_implicit(overrides)) << overrides.front();
 }

@@ -71,6 +71,9 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
       {{"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},
        "materials: implicit steps are made for drucker_prager, mohr_coulomb, j2_plasticity and mu_i, not for 'sand' "
        "(neo_hookean)"},
+      {{"materials=[{name: sand, law: j2_plasticity, density: 7850, young: 210 GPa, poisson: 0.3, yield_stress: 250 "
+        "MPa}]"},
+       "materials: 'sand' bears 2.5e+05 kPa, of which 200 sweeps in a step of 10 ms carry "},
       {{"method.sweeps=1001"}, "method: sweeps: 1001 is not possible"},
       {{"time.step=0.2"}, "time: step: 0.2 s is too long"},
       {{"time.budget=8 ms", "method.update=usavg"}, "time: budget: explicit steps have no sweeps"},

@@ -304,6 +304,13 @@ TEST(SceneTarget, GroundIsToldByTheLawsOfMaterials) {
   EXPECT_EQ(ground("law: mohr_coulomb, friction_angle: 0, cohesion: 1 kPa" + elastic), pace::Ground::clay);
   EXPECT_EQ(ground("law: j2_plasticity, yield_stress: 1 kPa" + elastic), pace::Ground::clay);
   EXPECT_FALSE(ground("law: neo_hookean" + elastic));
+  SimulationDefinition implicit =
+      parse_scene(
+          kScene, "t",
+          {"materials.sand={name: sand, density: 1600, law: j2_plasticity, yield_stress: 1 kPa" + elastic + "}"})
+          .definition;
+  implicit.method.update = UpdateScheme::implicit;
+  EXPECT_FALSE(ground_of(implicit)) << "no tool was measured in metal with implicit steps";
   EXPECT_FALSE(
       ground("law: mu_i, mu_s: 0.38, mu_2: 0.64, I_0: 0.28, grain_diameter: 1 mm, grain_density: 2500" + elastic))
       << "no tool was measured in it";

@@ -19,7 +19,7 @@ constexpr double kStatic = 0.3819, kLimiting = 0.6435, kReference = 0.279, kGrai
 // every depth, so that the inertial number is one and the rate follows the root of the pressure (Bagnold's profile),
 //   v(z) = 2/3 (I / d) sqrt(g cos(slope) rho / rho_s) (h^1.5 - (h - z)^1.5),
 //   I = I_0 (tan(slope) - mu_s) / (mu_2 - tan(slope)).
-// 16 cells on the depth of 0.1 m; from a profile a tenth too fast, for 4 s (the flow settles in 0.5 s). 2 % of the
+// 16 cells on the depth of 0.1 m; from a profile a tenth too fast, for 4 s (half of that is left after 1 s). 2 % of the
 // speed at the surface: friction within 0.2 %, by the elastic strain and that of the grid, is 3 % of I. APIC, since
 // FLIP of 0.998 adds a viscosity of 5 % of the flow's. 2 s.
 TEST(ChuteFlow, OfMuIHasBagnoldsProfile) {

@@ -1,5 +1,5 @@
-// Laws of implicit steps beside those of soil: metal of J2 and grain of mu(I), against exact solutions and the explicit
-// law. Cost: 4 s.
+// Laws of implicit steps beside those of soil: metal of J2 and grain of mu(I), against exact solutions and explicit
+// steps. Cost: 3 s.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -70,6 +70,28 @@ TEST(ImplicitLaws, ShearedMetalHardens) {
   }
 }
 
+/// Largest plastic strain of the sheared layer at its end.
+double plastic_strain(const mpm::Simulation& run) {
+  const std::vector<double> strain = verification::field(run, "ep");
+  return *std::max_element(strain.begin(), strain.end());
+}
+
+// Metal that is strong takes sweeps for its strength, whether a tool presses on it or not: sheared by 10 % it has G
+// times the strain, to 2 %, and no plastic strain, whatever its sweeps leave undone.
+TEST(ImplicitLaws, MetalBelowItsYieldStressIsElastic) {
+  mpm::Simulation run = start_text(sheared("law: j2_plasticity, yield_stress: 200e3, hardening_modulus: 1e5"));
+  verification::run_until(run, 1.0);
+  const std::vector<double> stress = verification::field(run, "sxz");
+  double mean = 0.0;
+  for (const double one : stress) mean += one / static_cast<double>(stress.size());
+  EXPECT_NEAR(mean / (0.1 * kShear), 1.0, 0.02);
+  RecordProperty("over_exact", fmt::format("{:.4f}", mean / (0.1 * kShear)));
+  EXPECT_EQ(plastic_strain(run), 0.0);
+  mpm::Simulation weak = start_text(sheared(kLinear));
+  verification::run_until(weak, 1.0);
+  EXPECT_NEAR(plastic_strain(weak), (0.1 - shear_stress(false, 0.1) / kShear) / std::sqrt(3.0), 0.005);
+}
+
 /// A plate that is pressed into a bed of clay 0.4 m deep by 2 cm.
 std::string pressed(const std::string& law) {
   return fmt::format(
@@ -85,23 +107,29 @@ std::string pressed(const std::string& law) {
       law);
 }
 
-double force_on_plate(const std::string& law) {
-  mpm::Simulation run = start_text(pressed(law), {}, 2);
+double force_on_plate(const std::string& law, const std::vector<std::string>& overrides = {}) {
+  mpm::Simulation run = start_text(pressed(law), overrides, 2);
   verification::run_until(run, 0.3);
   run.take_contact(0);
   verification::run_until(run, 0.5);
-  EXPECT_LT(run.state().audit.residual, 1e-12);
+  EXPECT_LT(run.state().audit.residual, 1e-11);
   return run.take_contact(0).mean.force.z();
 }
 
 // In a plane metal without hardening flows at the shear stress sigma_y / sqrt(3), as clay of that cohesion does: the
-// force on a plate is the same, to what elastic compression changes.
+// force on a plate is the same, to what elastic compression changes, and Prandtl's (2 + pi) c to a tenth with 8 cells
+// on the plate, as explicit steps have it.
 TEST(ImplicitLaws, MetalIsClayInAPlane) {
   const double metal = force_on_plate("law: j2_plasticity, yield_stress: 8.660254e3");
   const double clay = force_on_plate("law: mohr_coulomb, friction_angle: 0, cohesion: 5e3");
   EXPECT_NEAR(metal / clay, 1.0, 0.02);
   RecordProperty("metal_over_clay", fmt::format("{:.4f}", metal / clay));
-  RecordProperty("over_prandtl", fmt::format("{:.4f}", metal / ((2.0 + mpm::kPi) * 5e3 * 0.4)));
+  const double over_prandtl = metal / ((2.0 + mpm::kPi) * 5e3 * 0.4);
+  EXPECT_NEAR(over_prandtl, 1.0, 0.1);
+  RecordProperty("over_prandtl", fmt::format("{:.4f}", over_prandtl));
+  const double explicit_steps = force_on_plate("law: j2_plasticity, yield_stress: 8.660254e3", {"method.update=usavg"});
+  EXPECT_NEAR(metal / explicit_steps, 1.0, 0.1);
+  RecordProperty("over_explicit", fmt::format("{:.4f}", metal / explicit_steps));
 }
 
 // Glass beads: tan 20.9 and tan 32.76 degrees, I_0 0.279 (Jop, Forterre & Pouliquen 2006).
@@ -130,9 +158,14 @@ struct Chute {
   }
 };
 
+/// Part of the speed at the surface by which explicit steps (chute_flow_test.cpp) are still too fast after 1 s, when
+/// they began a tenth too fast.
+constexpr double kLeft = 0.048;
+
 // The friction of a steady flow is the slope at every depth, so the rate follows the root of the pressure
 // (chute_flow_test.cpp has explicit steps). A flow that begins so stays so for 1 s, a shear of 9 in the mean, to 1 % of
-// the speed at the surface; one that is a tenth too fast has lost half of that.
+// the speed at the surface; one that is a tenth too fast has lost half of that,
+// as with explicit steps.
 TEST(ImplicitLaws, GrainFlowsInBagnoldsProfile) {
   for (const double start : {1.0, 1.1}) {
     const Chute chute(start);
@@ -149,8 +182,8 @@ TEST(ImplicitLaws, GrainFlowsInBagnoldsProfile) {
       most = std::max(most, beyond);
       least = std::min(least, beyond);
     }
-    EXPECT_LT(most, start == 1.0 ? 0.01 : 0.055);
     EXPECT_GT(least, -0.01);
+    EXPECT_NEAR(most, start == 1.0 ? 0.0 : kLeft, start == 1.0 ? 0.01 : 0.005) << start;
     RecordProperty(fmt::format("from_{}", start), fmt::format("{:.4f} {:.4f}", least, most));
     EXPECT_LT(run.state().audit.residual, 1e-12);
   }

@@ -73,7 +73,7 @@ TEST(ImplicitStep, LoadsFarAboveTheWeightAreMet) {
 }
 
 // A wheel pressed into sand by six of its fine cells: steps of 10 ms, as the scene asks for, are made shorter for it,
-// so that it meets what it meets in steps of 2.5 ms. (README has it beside explicit steps.)
+// so that it meets what it meets in steps of 2.5 ms. (doc/first_scene.md has it in explicit steps.)
 TEST(ImplicitStep, APressedWheelMeetsItsForceOnFineCells) {
   const std::string wheel =
       "rigid_bodies: [{name: wheel, shape: {sphere: {radius: 0.15}}, pose: {position: [0.2, 0.38]}, friction: 0.6, "

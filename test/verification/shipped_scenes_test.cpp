@@ -88,7 +88,7 @@ TEST(ShippedScenes, BladeHasTheSameBitsForTwoThreads) {
 TEST(FullShippedScenes, BladeClosesTheAuditAsShipped) { run("blade_in_soil", {}, 0); }
 
 // A slow blade is resisted by strength and weight: half and twice the stiffness change its impulse by less than 10 %,
-// the scatter of the heap's shape (README, "Accuracy and speed").
+// the scatter of the heap's shape (doc/accuracy.md).
 TEST(FullShippedScenes, StiffnessHardlyChangesTheForceOnTheBlade) {
   const double as_shipped = impulse(run("blade_in_soil", {}, 0), "contact/blade");
   for (const char* young : {"0.25 MPa", "1 MPa"}) {

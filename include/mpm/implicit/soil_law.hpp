@@ -2,9 +2,9 @@
 //
 // Strength is that of the explicit law (drucker_prager.hpp, mohr_coulomb.hpp): a round cone, or Mohr-Coulomb's surface
 // in invariants, sqrt(J2) k(phi) <= c cos(phi) + p sin(phi) with the k of the Lode angle (kernel/soil_cells.hpp). Flow
-// is radial in the deviatoric plane; dilation ends and strength falls as in the explicit laws (softening.hpp). That of
-// j2_plasticity is a cohesion, sigma_y / sqrt(3), of the plastic strain at the step's start; that of mu_i is a round
-// cone whose slope follows the rate of the step itself (mu_i.hpp).
+// is radial in the deviatoric plane; dilation ends and strength falls as in the explicit laws (softening.hpp). The
+// strength of j2_plasticity is a cohesion, sigma_y / sqrt(3), of the plastic strain at the step's start; that of mu_i
+// is a round cone whose slope follows the rate of the step itself (mu_i.hpp).
 //
 // Weak: for mohr_coulomb flow has no corners, and its tension limit is one of the mean stress, as for drucker_prager.
 // Metal yields on its Cauchy stress, where the explicit law has that times J.
@@ -27,12 +27,14 @@ struct ImplicitSoil {
   /// @throws MaterialError for a material that refused_implicit() names
   explicit ImplicitSoil(const MaterialDefinition& material);
 
-  /// c cos(phi) [Pa], of a round cone xi c, where `left` is the mean over a cell of what kernel/soil_cells.hpp has so:
-  /// the part of its fall that is left, and of metal 1 + plastic strain.
+  /// c cos(phi) [Pa], of a round cone xi c; `left`: mean over a cell of 1 - per_strain times plastic strain, which is
+  /// the part of the fall that is left, and of metal, whose per_strain is -1, 1 + plastic strain.
   double cohesion_at(double left) const {
     return metal_ ? metal_->yield_stress(left - 1.0) / std::sqrt(3.0) : cohesion_.at(left);
   }
 
+  /// Largest Mises stress of metal that is not hardened in a straight line [Pa]; 0 of soil.
+  double yield_stress = 0.0;
   double density = 0.0;            ///< [kg/m^3]
   double bulk = 0.0, shear = 0.0;  ///< moduli [Pa]
   Fall sine;                       ///< sin(phi), or eta of a round cone

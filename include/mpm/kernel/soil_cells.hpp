@@ -17,15 +17,15 @@
 //   |r_T| <= sqrt(2) (cohesion + sine r_N / sqrt(3)) / k(sine), r_N >= least; flow e_T = -a r_T, e_N = theta |e_T|,
 //   theta = dilates sqrt(2/3) dilation / k(dilation),
 //
-// Of mu(I) sine is mu_s + (mu_2 - mu_s) y / (y + b), y the rate |e_T| that is not elastic and b = reference_rate
-// sqrt(r_N / (2 sqrt(3))): the root of a quadratic equation (material/mu_i.hpp) at the b_T and r_N of the last sweep.
 // with the k of Mohr-Coulomb's surface at the Lode angle of r_T (material/drucker_prager.hpp), whose direction is that
 // of -b_T whatever its size; of a round cone k is 1. A sweep takes the Lode angle that the one before has found, so
-// that what follows from it is not waited for. With b = e - W r + shift, what the cell's rate would be without its
-// stress, and the diagonal numbers w that stand for its answer to it: stick r = -b / w, or slide, or part. Source: G.
-// Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the continuum simulation of granular
-// materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at no pressure, a limit of tension
-// and the Lode angle is this project's.
+// that what follows from it is not waited for. Of mu(I), a round cone, sine is mu_s + (mu_2 - mu_s) y / (y + c) with
+// the rate y of |e_T| that is not elastic, and c = reference_rate sqrt(r_N / (2 sqrt(3))): the root of a quadratic
+// equation (material/mu_i.hpp) at the b_T and r_N of the last sweep. With b = e - W r + shift, what the cell's rate
+// would be without its stress, and the diagonal numbers w that stand for its answer to it: stick r = -b / w, or slide,
+// or part. Source: G. Daviet, F. Bertails-Descoubes (2016), A semi-implicit material point method for the continuum
+// simulation of granular materials, ACM Trans. Graph. 35(4) 102; the closed form with compliance, strength at no
+// pressure, a limit of tension and the Lode angle is this project's.
 #pragma once
 
 namespace mpm_kernel {
@@ -139,7 +139,9 @@ struct alignas(64) SoilSums {
   T volume;     ///< [m^3]
   T place[6];   ///< x, y, z, xy, xz, yz, in cells from the lower corner
   T stress[6];  ///< r
-  T opening, left, dilates;
+  T opening;    ///< logarithmic volume by which soil has opened, or that the pressure of metal does not account for
+  T left;       ///< 1 - per_strain times plastic strain, not below 0: of soil, part of its fall of strength
+  T dilates;    ///< part of its dilation that soil has
 };
 
 /// Values that particles take from a cell.

@@ -23,7 +23,7 @@ enum class Matter { solid, soil, liquid, gas };
 /// which forces on tools were measured.
 enum class ImplicitSteps { refused, possible, measured };
 
-/// What a law is, for those who ask: a constant kMatter, kRateDependent and so on of each law. None has a default, so
+/// Facts about a law, for those who ask: a constant kMatter, kRateDependent and so on of each law. None has a default, so
 /// that a law which does not say it does not compile.
 struct LawTraits {
   /// Soil is grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).
@@ -45,7 +45,7 @@ struct LawTraits {
   bool fluid() const { return matter == Matter::liquid || matter == Matter::gas; }
 };
 
-/// Where a law is asked for the elastic part of a strain.
+/// State at which a law is asked for the elastic part of a strain.
 struct StressedPoint {
   Symmetric3<double> cauchy;  ///< [Pa]
   Symmetric3<double> tau;     ///< Kirchhoff stress over initial density [J/kg]

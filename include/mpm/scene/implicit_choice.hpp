@@ -1,4 +1,4 @@
-// Rule by which `method: auto` takes implicit steps (doc/implicit.md): where all material is soil that they have, each
+// Rule by which `method: auto` takes implicit steps (doc/implicit.md): where all material is soil in which forces were measured, each
 // tool cuts through it or rolls on it, slower than a tenth of the waves, nothing in the scene needs explicit steps, and
 // a step of the usual length spans at least three of them.
 //

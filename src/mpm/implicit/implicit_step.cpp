@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kStiffer = 240.0;  ///< modulus that sweeps resolve over the mean pressure on tools
 constexpr double kOwn = 4.0;        ///< the same over the soil's own modulus, more than which is of no use
-constexpr double kSettled = 3e-3;   ///< change of all stresses in a sweep, over the stresses
+/// The same over the yield stress of metal, whose strain before it yields counts: of it some 1 / kStrains is lost.
+constexpr double kStrains = 300.0;
+constexpr double kSettled = 3e-3;  ///< change of all stresses in a sweep, over the stresses
 // Change of the forces on tools in the second half of the sweeps: over the forces, and over what the step has changed
 // them by, since of a force that grows slowly an error in each step adds up.
 constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
@@ -194,11 +196,13 @@ class ImplicitStep final : public Stage, public ContactReporter {
     const double cell = grid_.layout.smallest_cell();
     return cells_.least_density() * cell * cell / (dt * dt);
   }
-  /// As many as resolve the pressure that tools met in the last step, and not many less than in that step, so that the
-  /// force does not jump with their number.
+  /// As many as resolve the pressure that tools met in the last step and what metal bears, and not many less than in
+  /// that step, so that the force does not jump with their number.
   int sweeps_needed(double dt) const {
     if (settings_.sweeps) return *settings_.sweeps;
-    const double needed = std::min(kStiffer * tools_.pressure_to_resolve(), kOwn * cells_.modulus()) / unit(dt);
+    const double by_tools = std::min(kStiffer * tools_.pressure_to_resolve(), kOwn * cells_.modulus());
+    const double by_metal = std::min(kStrains * cells_.yield_stress(), kOwn * cells_.metal_modulus());
+    const double needed = std::max(by_tools, by_metal) / unit(dt);
     const int wanted = std::isfinite(needed) ? sweeps_for(needed, kMostSweeps) : 0;
     return std::max({static_cast<int>(kKept * least_), wanted, kLeastSweeps});
   }

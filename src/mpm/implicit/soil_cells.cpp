@@ -87,8 +87,11 @@ SoilCells<T>::SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads)
   least_density_ = bodies_.soils.front().density;
   for (const ImplicitSoil& soil : bodies_.soils) {
     least_density_ = std::min(least_density_, soil.density);
-    modulus_ = std::max(modulus_, soil.bulk + 4.0 / 3.0 * soil.shear);
+    double& modulus = soil.yield_stress > 0.0 ? metal_modulus_ : modulus_;
+    modulus = std::max(modulus, soil.bulk + 4.0 / 3.0 * soil.shear);
+    yield_stress_ = std::max(yield_stress_, soil.yield_stress);
   }
+  if (modulus_ == 0.0) modulus_ = metal_modulus_;
 }
 
 // A particle's box lies in the blocks around its owner.

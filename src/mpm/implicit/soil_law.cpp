@@ -45,6 +45,7 @@ class Reader {
     take_elasticity(d.elasticity);
     take_history<J2Plasticity>();
     metal_.emplace(d, soil_.density);
+    soil_.yield_stress = d.saturation_rate > 0.0 ? d.saturation_stress : d.yield_stress;
     soil_.least = -kNoLimit;
     soil_.per_strain = -1.0;
     soil_.strain_of_shear = std::sqrt(2.0 / 3.0);

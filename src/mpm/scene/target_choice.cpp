@@ -93,6 +93,8 @@ std::optional<pace::Ground> ground_of(const SimulationDefinition& definition) {
   for (const MaterialDefinition& material : definition.materials) {
     const std::optional<double> friction = friction_angle(material.law);
     if (!friction) continue;
+    const bool implicit = definition.method.update == UpdateScheme::implicit;
+    if (implicit && traits_of(material).implicit != ImplicitSteps::measured) return std::nullopt;
     if (*friction > 0.0) return pace::Ground::sand;
     found = pace::Ground::clay;
   }

@@ -7,6 +7,7 @@
 
 #include "mpm/implicit/implicit_step.hpp"
 #include "mpm/implicit/soil_law.hpp"
+#include "mpm/implicit/sweep_momentum.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "rigid_contacts.hpp"
 #include "state.hpp"
@@ -63,10 +64,25 @@ Fault method_part(const SimulationDefinition& d) {
   return {};
 }
 
+/// Refuses metal that is stronger than what the sweeps of a step can carry.
+Fault strength_part(const SimulationDefinition& d, const MaterialDefinition& material) {
+  const double yield = ImplicitSoil(material).yield_stress, step = d.time.step.value_or(kImplicitStep);
+  const int sweeps = d.method.sweeps.value_or(kMostSweeps);
+  const double cell = d.smallest_cell(), modulus = modulus_of(sweeps) * material.density * cell * cell / (step * step);
+  if (kResolvedLoad * yield <= modulus) return {};
+  return MethodFault{
+      "materials",
+      fmt::format("'{}' bears {:.3g} kPa, of which {} sweeps in a step of {:g} ms carry {:.3g} kPa on cells of {:g} m; "
+                  "write a time.step of {:.2g} ms, or use method.update: usavg",
+                  material.name, 1e-3 * yield, sweeps, 1e3 * step, 1e-3 * modulus / kResolvedLoad, cell,
+                  1e3 * step * std::sqrt(modulus / (kResolvedLoad * yield)))};
+}
+
 Fault material_part(const SimulationDefinition& d) {
   for (const DeformableBody& body : d.bodies) {
     const MaterialDefinition& material = find_material(d, body);
     if (const std::string text = refused_implicit(material); !text.empty()) return MethodFault{"materials", text};
+    if (Fault fault = strength_part(d, material)) return fault;
     if (body.field != d.bodies.front().field) {
       return MethodFault{
           "contact.pairs",

@@ -12,7 +12,7 @@
 
 namespace mpm {
 
-/// What a view has to hold.
+/// Parts that a view has to hold.
 enum ViewNeeds : unsigned {
   kNeedsNothing = 0,
   kNeedsVolume = 1,    ///< j
@@ -22,7 +22,7 @@ enum ViewNeeds : unsigned {
   kNeedsRotation = 16  ///< rotation
 };
 
-/// What a set's particles have in common.
+/// Facts that a set's particles have in common.
 struct SetView {
   SetView(const ParticleSet& set, const Law& law, const MaterialDefinition& material, int index,
           const GridLayout& layout, GeometryKind geometry);
@@ -41,9 +41,9 @@ struct SetView {
   const Law& law;
   int index;
   GeometryKind geometry;
-  int slot[3] = {-1, -1, -1};                                    ///< of each world axis among the grid's
+  int slot[3] = {-1, -1, -1};                                    ///< number of each world axis among the grid's
   double density = 0.0;                                          ///< initial [kg/m^3]
-  int plastic_strain = -1, plastic_work = -1, temperature = -1;  ///< which history scalar
+  int plastic_strain = -1, plastic_work = -1, temperature = -1;  ///< number of the history scalar
   double reference_temperature = 0.0;                            ///< [K]
   double heat_fraction = 0.0;
   double heat_capacity = 0.0;  ///< at constant volume [J/(kg K)]; 0: the law has none
@@ -58,7 +58,7 @@ struct ParticleView {
   Symmetric3<double> cauchy{};   ///< [Pa]
   Symmetric3<double> total{};    ///< strain
   Symmetric3<double> elastic{};  ///< strain
-  Vec3 rotation = Vec3::Zero();  ///< of the polar decomposition: axis times angle [rad]
+  Vec3 rotation = Vec3::Zero();  ///< rotation of the polar decomposition: axis times angle [rad]
 
   /// Fills what `needs` (ViewNeeds) asks for of particle `particle`.
   void look(int particle, unsigned needs);

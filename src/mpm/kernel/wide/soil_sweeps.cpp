@@ -184,6 +184,9 @@ void prepare(SoilGroup<T>& group, const SoilPlaces<T>& places, const SoilNode<T>
   store(group.weight_t, push * answer.shear());
 }
 
+/// Part of the strength from which on a stress lies on the surface, whose Lode angle is found anew after each sweep.
+constexpr double kFlows = 0.95;
+
 template <class T>
 constexpr T kStill = T(1e-12);  ///< a rate below which there is no direction [1/s]
 
@@ -389,7 +392,11 @@ void flow(const SoilGroup<T>& group, const SoilNode<T>* nodes, SoilFlow<T>& out)
     if (k > 0) shear += plastic[k] * plastic[k];
   }
   shear = root<T>(shear);
-  store(out.shear, shear);
+  // Below the surface what elasticity does not account for is work that sweeps have left, and no flow.
+  Eight<T> r[6];
+  for (int k = 0; k < 6; ++k) r[k] = load(group.stress[k]);
+  const Eight<T> bears = load(group.strength) + load(group.slope) * r[0], none{};
+  store(out.shear, length<T>(r) >= static_cast<T>(kFlows) * bears ? shear : none);
   store(out.opening, plastic[0] - load(group.closing) - load(group.theta) * shear);
   for (int a = 0; a < 3; ++a) {
     for (int k = 0; k < 3; ++k) {

@@ -52,9 +52,6 @@ void expect_refused(const std::string& text, const std::function<void(Simulation
 
 TEST(RigidRules, WhatAFreeBodyCanBe) {
   EXPECT_NO_THROW(Simulation(ball_over_block(GeometryKind::plane_strain), {1}));
-  const std::string at_points = "free: a free body is met at points of the material's surface";
-  expect_refused(at_points, [](auto& d) { d.contact.method = ContactMethod::nodes; });
-  expect_refused(at_points, [](auto& d) { d.rigid_bodies[0].particles = true; });
   expect_refused("free: no velocity is free", [](auto& d) { d.rigid_bodies[0].free->axes = {}; });
   expect_refused("free: the centre of mass is off the body's origin", [](auto& d) {
     d.rigid_bodies[0].free->axes[0] = false;

@@ -104,7 +104,7 @@ TEST(SceneBadInput, UnknownWordsSuggestTheNearest) {
 
 TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(28, "transport: {}", "transport: names no quantity;");
-  expect_refused(28, "cracks: {}", "cracks: a crack is a line in a plane;");
+  expect_refused(28, "cracks: {}", "cracks: cracks and a solid scene do not go together:");
   expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: 'mesh' is no key here; use box");
 }
 

@@ -322,7 +322,7 @@ bodies: [{name: plate, material: glass, shape: {box: {min: [0.2, 0.2, 0.2], max:
 cracks: {list: [{name: notch, points: [[0.2, 0.4], [0.4, 0.4]]}]}
 )yaml";
   const std::string solid = crack_refusal(kSolid);
-  EXPECT_EQ(solid.rfind("bad.yaml:5: cracks: a crack is a line in a plane; a solid scene, where", 0), 0u) << solid;
+  EXPECT_EQ(solid.rfind("bad.yaml:5: cracks: cracks and a solid scene do not go together", 0), 0u) << solid;
   EXPECT_NE(solid.find("write geometry: plane_strain,"), std::string::npos);
   const std::string line = crack_refusal(R"yaml(geometry: line
 grid: {cell: 0.1, min: 0, max: 1}
@@ -331,7 +331,7 @@ materials: [{name: glass, density: 2500, law: linear_elastic, young: 70 GPa, poi
 bodies: [{name: plate, material: glass, shape: {box: {min: 0.2, max: 0.6}}}]
 cracks: {list: []}
 )yaml");
-  EXPECT_EQ(line.rfind("bad.yaml:6: cracks: a crack is a line in a plane; a line has none:", 0), 0u) << line;
+  EXPECT_EQ(line.rfind("bad.yaml:6: cracks: cracks and a line do not go together", 0), 0u) << line;
   const std::string whole = spoilt_scene(0, "");
   const std::string before = whole.substr(0, whole.find("cracks:"));
   EXPECT_EQ(crack_refusal(before + "cracks: {list: []}\n").substr(0, 40), "bad.yaml:16: cracks.list: names no crack");
@@ -346,24 +346,29 @@ std::string refusal_beside(const std::string& section, std::size_t number = 0, c
 }
 
 TEST(SceneCrackBadInput, WhatIsNotYetTogetherWithCracks) {
-  EXPECT_EQ(refusal_beside("sleep: {speed: 1 mm/s, after: 1 ms}\n"),
-            "bad.yaml:28: sleep: not yet together with cracks; leave one of the two out");
+  EXPECT_EQ(
+      refusal_beside("sleep: {speed: 1 mm/s, after: 1 ms}\n"),
+      "bad.yaml:28: sleep: sleep and cracks do not go together: what is asleep is not stepped, and cracks do not know "
+      "it; leave one of the two out");
   EXPECT_EQ(refusal_beside("sleep: off\n"), "no error");
   EXPECT_EQ(refusal_beside("transport: {temperature: {}}\n", 6, "    density: 2500\n    heat_capacity: 800"),
             "no error");
-  expect_crack_refused(15, "boundaries: {x: periodic, z_min: slip, z_max: slip}",
-                       "cracks: not yet together with boundaries.x: periodic; write faces such as x_min: slip", "", 17);
+  expect_crack_refused(
+      15, "boundaries: {x: periodic, z_min: slip, z_max: slip}",
+      "cracks: cracks and periodic axes (x_min) do not go together: a chain does not go on across them; write faces "
+      "such as x_min: slip",
+      "", 17);
   const std::string blade =
       "rigid_bodies: [{name: blade, shape: {box: {size: [0.05, 0.4]}}, pose: {position: [1, 1.5]}";
   const std::string thin = refusal_beside(blade + "}]\n");
-  EXPECT_EQ(thin.rfind("bad.yaml:17: cracks: not yet together with thin tools,", 0), 0u) << thin;
-  EXPECT_NE(thin.find("as 'blade' has; write sides: one for it"), std::string::npos) << thin;
-  EXPECT_NE(refusal_beside(blade + ", sides: two}]\n").find("with thin tools,"), std::string::npos);
+  EXPECT_EQ(thin.rfind("bad.yaml:17: cracks: cracks and thin tools, whose sides", 0), 0u) << thin;
+  EXPECT_NE(thin.find("('blade') do not go together"), std::string::npos) << thin;
+  EXPECT_NE(thin.find("write sides: one for it"), std::string::npos) << thin;
+  EXPECT_NE(refusal_beside(blade + ", sides: two}]\n").find("and thin tools,"), std::string::npos);
   const std::string filled = refusal_beside(
       "rigid_bodies: [{name: stone, shape: {box: {size: [0.4, 0.1]}}, pose: {position: [1, 1.5]}, normals: "
       "particles}]\n");
-  EXPECT_EQ(filled.rfind("bad.yaml:17: cracks: not yet together with rigid bodies made of particles, as 'stone'", 0),
-            0u)
+  EXPECT_EQ(filled.rfind("bad.yaml:17: cracks: cracks and rigid bodies made of particles ('stone') do not go", 0), 0u)
       << filled;
 }
 

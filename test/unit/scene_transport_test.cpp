@@ -99,7 +99,8 @@ TEST(SceneTransport, RefusesConditionsThatCannotHold) {
   expect_fault({"transport={heat: {}}"}, "temperature");
   expect_fault(heat({"transport.temperature.initial={}"}), "names no body");
   expect_fault(pores({"geometry=plane_stress"}), "plane stress");
-  expect_fault(pores({"boundaries={z_min: absorbing}"}), "boundaries.z_min absorbs");
+  expect_fault(pores({"boundaries={z_min: absorbing}"}),
+               "absorbing faces (z_min) and water in pores do not go together");
   expect_fault(pores({"gravity=[0, -9.81]", "bodies.block.initial=geostatic", "materials.wax.fluid_density=1000",
                       "transport.pore_pressure.initial={hydrostatic: {water_table: 2}}"}),
                "more than the weight above");

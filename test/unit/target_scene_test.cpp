@@ -256,6 +256,8 @@ TEST(SceneTarget, ASymmetricSceneIsHalvedAtTheMiddleOfItsGrid) {
         "rigid_bodies.tool.shape={{polygon: {{points: [[-0.1, {0}], [0.1, {0}], [0.1, 0.3], [-0.1, 0.3]]}}}}", low));
     expect_start(refusal(kScene, turned), start + "rigid body 'tool' reaches further on one side of that plane, or is");
   }
+  expect_start(refused("cracks={list: [{name: c, points: [[0.4, 0.2], [1.2, 0.2]], end: none, start: none}]}"),
+               start + "cracks are not halved");
   const std::string field = refused("rigid_bodies.tool.shape={height_field: {x: [-0.1, 0.1], heights: [0, 0.1]}}");
   EXPECT_NE(field.find("rigid body 'tool' is a height field"), std::string::npos) << field;
   EXPECT_NE(refused("target.symmetric=y").find("target.symmetric: 'y' is not known"), std::string::npos);

@@ -10,6 +10,7 @@
 #include "mpm/scene/auto_method.hpp"
 #include "mpm/scene/reader.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/method_rules.hpp"
 
 namespace mpm {
 
@@ -78,6 +79,8 @@ double thinnest_mesh(const SimulationDefinition& definition);
 CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
+/// Refuses a scene for a fault, by the place of its section and what follows it in the key.
+[[noreturn]] void fail_at(const Map& root, const MethodFault& fault);
 /// The name of a deformable body of the scene.
 std::string read_body(const Value& value, const Scene& scene);
 /// The `region` that chooses particles of a load or a flux, if there is one.

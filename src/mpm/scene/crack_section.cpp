@@ -3,44 +3,12 @@
 
 #include <algorithm>
 
-#include "mpm/contact/thin_tool.hpp"
 #include "mpm/crack/chain_shape.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/feature_rules.hpp"
 
 namespace mpm {
 namespace {
-
-void refuse_geometry(const Value& section, GeometryKind geometry) {
-  if (dimensions(geometry) == 2) return;
-  section.fail(fmt::format(
-      "a crack is a line in a plane; {} has none: write geometry: plane_strain, plane_stress or axisymmetric",
-      geometry == GeometryKind::line ? "a line" : "a solid scene, where a crack would be a surface,"));
-}
-
-/// Refuses what else in a scene acts on both sides of a crack as if they were one.
-void refuse_beside_cracks(const Value& section, const Map& root, const Scene& scene) {
-  const SimulationDefinition& definition = scene.definition;
-  if (definition.sleep) root.at("sleep").fail("not yet together with cracks; leave one of the two out");
-  for (std::size_t face = 0; face < definition.walls.size(); ++face) {
-    if (definition.walls[face].kind != WallKind::periodic) continue;
-    section.fail(fmt::format("not yet together with boundaries.{}: periodic; write faces such as {}: slip",
-                             axis_name(static_cast<int>(face / 2)), kWallNames[face]));
-  }
-  const double cell = definition.smallest_cell();
-  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
-    if (body.particles) {
-      section.fail(fmt::format(
-          "not yet together with rigid bodies made of particles, as '{}' is; leave out its normals: particles",
-          body.name));
-    }
-    if (has_sides(body, definition.geometry, cell)) {
-      section.fail(fmt::format(
-          "not yet together with thin tools, whose sides have velocity fields of their own, as '{}' has; write "
-          "sides: one for it",
-          body.name));
-    }
-  }
-}
 
 void read_contour(const Value& value, GeometryKind geometry, ContourDefinition& contour) {
   const Map map(value, {"size", "terms", "form", "energy"});
@@ -154,10 +122,9 @@ void read_cracks(const Map& root, Scene& scene) {
   const auto section = root.find("cracks");
   if (!section) return;
   SimulationDefinition& definition = scene.definition;
-  refuse_geometry(*section, definition.geometry);
+  if (const auto fault = feature_fault(definition, 1, Feature::cracks)) fail_at(root, *fault);
   const Map map(*section, {"list", "traction_laws", "contour", "move", "prevent", "split", "growth", "alternate",
                            "length", "time_factor", "heating", "ignored_by"});
-  refuse_beside_cracks(*section, root, scene);
   CracksDefinition& cracks = definition.cracks;
   if (const auto laws = map.find("traction_laws")) read_laws(*laws, cracks);
   read_settings(map, definition.geometry, cracks, scene);

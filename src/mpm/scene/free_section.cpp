@@ -95,8 +95,6 @@ void read_free(const Map& body_map, const SimulationDefinition& definition, Rigi
   const auto key = body_map.find("free");
   if (!key) return;
   const GeometryKind geometry = definition.geometry;
-  if (definition.contact.method == ContactMethod::nodes)
-    key->fail("contact at nodes has no free bodies; leave out contact.method, or write points");
   if (body.inner_radius > 0.0) key->fail("a ring that opens is not rigid; write another shape, or leave `free` out");
   const Map map(*key, {"mass", "density", "inertia", "centre", "axes", "velocity", "rotation_rate", "force", "torque"},
                 {{"center", "write centre"}, {"gravity", "gravity is the scene's"}});

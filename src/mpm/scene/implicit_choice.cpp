@@ -12,6 +12,7 @@
 #include "mpm/scene/scene_warnings.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/tool_motion.hpp"
+#include "mpm/simulation/feature_rules.hpp"
 #include "mpm/simulation/implicit_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 
@@ -106,7 +107,7 @@ bool choose_implicit(const AutoMethod& asked, const Map& root, Scene& scene) {
   after.method.update = UpdateScheme::implicit;
   if (!asked.names_transfer) after.method.transfer = transfer_of_implicit();
   after.bodies = unbuilt(scene);
-  if (has_pairs(scene) || implicit_fault(after)) return false;
+  if (has_pairs(scene) || feature_fault(after) || implicit_fault(after)) return false;
   const auto unmeasured = [&](const MaterialDefinition& material) {
     const auto is_of = [&](const BodyDefinition& body) { return body.material == material.name; };
     return traits_of(material).implicit != ImplicitSteps::measured &&

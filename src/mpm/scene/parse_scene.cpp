@@ -7,6 +7,7 @@
 #include "mpm/scene/implicit_choice.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/target_record.hpp"
+#include "mpm/simulation/feature_rules.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/implicit_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
@@ -94,6 +95,13 @@ const char* scene_kind(GeometryKind geometry) {
   return planar(geometry) ? "a planar scene" : "a solid scene";
 }
 
+void fail_at(const Map& root, const MethodFault& fault) {
+  const std::string section = fault.key.substr(0, fault.key.find('.'));
+  const std::string rest = section == fault.key ? fault.text : fault.key.substr(section.size() + 1) + ": " + fault.text;
+  const auto named = root.find(section);
+  (named ? *named : root.at("method")).fail(rest);
+}
+
 double particle_spacing(const Scene& scene, int axis) {
   return scene.definition.grid.cell[axis] / scene.definition.method.particles_per_direction;
 }
@@ -148,14 +156,8 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
         fmt::format("constants.{}: nothing in the scene uses it; use it, or leave it out", name));
   }
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);
-  if (const auto fault = implicit_fault(definition)) {
-    // By its section, and what follows it in the key.
-    const std::string section = fault->key.substr(0, fault->key.find('.'));
-    const std::string rest =
-        section == fault->key ? fault->text : fault->key.substr(section.size() + 1) + ": " + fault->text;
-    const auto named = root.find(section);
-    (named ? *named : root.at("method")).fail(rest);
-  }
+  if (const auto fault = feature_fault(definition)) fail_at(root, *fault);
+  if (const auto fault = implicit_fault(definition)) fail_at(root, *fault);
   if (asked && !takes_implicit) choose_method(*asked, load_method_costs(), scene);
   scene.text = asked ? with_method(source.root(), definition.method) : source.dump();
   return scene;

@@ -93,15 +93,6 @@ void read_sleep(const Map& root, Scene& scene) {
   }
   if (const auto start = map.find("from_start")) sleep.from_start = start->choice({"false", "true"}) == 1;
   definition.sleep = sleep;
-  if (!definition.body_forces.empty() || !definition.particle_forces.empty() || !definition.tractions.empty()) {
-    map.fail("loads act on material wherever it is, and sleep does not know them; leave out 'sleep' or 'loads'");
-  }
-  if (!definition.conditions.empty()) {
-    map.fail("boundaries.conditions move material wherever it is, and sleep does not know them; leave out one of both");
-  }
-  if (definition.method.average_dilatation) {
-    map.fail("method.average_dilatation needs the neighbours of every block; leave out one of both");
-  }
   for (const BodyDefinition& body : scene.bodies) {
     if (!sleep.from_start || weight == 0.0 || body.geostatic || body.stress) continue;
     map.at("from_start")

@@ -217,17 +217,6 @@ void read_transport(const Map& root, Scene& scene) {
     map.at("pore_pressure")
         .fail("in plane stress a law has no effective stress across the plate; write geometry: plane_strain");
   }
-  for (std::size_t face = 0; face < scene.definition.walls.size() && map.find("pore_pressure"); ++face) {
-    if (scene.definition.walls[face].kind != WallKind::absorbing) continue;
-    map.at("pore_pressure")
-        .fail(fmt::format(
-            "boundaries.{} absorbs the waves of dry material, and those of wet material are faster; make the "
-            "face slip or fixed, farther away",
-            kWallNames[face]));
-  }
-  if (root.find("sleep")) {
-    root.at("sleep").fail("material asleep is not stepped, and transport goes on in it; leave one of the two out");
-  }
 }
 
 }  // namespace mpm

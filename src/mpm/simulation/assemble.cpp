@@ -15,6 +15,7 @@
 #include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/mechanics/scalar_transfers.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/simulation/feature_rules.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/implicit_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
@@ -35,7 +36,7 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-void check(const SimulationDefinition& d) {
+void check(const SimulationDefinition& d, int ranks) {
   if (d.time.sync <= 0) throw DefinitionError("time.sync must be a positive number of nanoseconds");
   if (!(d.time.cfl > 0.0 && d.time.cfl < 1.0)) {
     throw DefinitionError(fmt::format("time.cfl is {}, must lie between 0 and 1", d.time.cfl));
@@ -50,6 +51,9 @@ void check(const SimulationDefinition& d) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
   if (const auto fault = implicit_fault(d)) {
+    throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
+  }
+  if (const auto fault = feature_fault(d, ranks)) {
     throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
@@ -225,7 +229,7 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
 
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  agree<DefinitionError>(options.ranks.get(), [&] { check(given); });
+  agree<DefinitionError>(options.ranks.get(), [&] { check(given, options.ranks ? options.ranks->size() : 1); });
   if (options.threads > kMostThreads) {
     throw DefinitionError(
         fmt::format("{} threads are asked for; at most {} can be had, and more than the machine's {} "
@@ -252,9 +256,6 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (const std::string slow = transport_warning(definition, materials); !slow.empty()) s.warnings.push_back(slow);
   s.threads = options.threads > 0 ? options.threads : useful_threads(count);
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
-  if (s.ranks && s.ranks->size() > 1 && definition.method.update == UpdateScheme::implicit) {
-    throw DefinitionError("method.update: implicit steps run in one process; leave the ranks out, or write usavg");
-  }
   project(s.definition);
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     const std::string fault = rigid_fault(definition, body);

@@ -67,20 +67,9 @@ TipSettings tip_settings(const RunParts& parts) {
 void check(const RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   const auto refuse = [](const std::string& what) { throw DefinitionError("cracks: " + what); };
-  if (parts.layout().dim() != 2) refuse("explicit cracks are for planar scenes and for scenes about an axis");
   if (parts.choice == nullptr) refuse("no body heeds any of them; leave the section out, or name a body that does");
-  if (parts.modules.find("stress_average") != nullptr) {
-    refuse("averages of stress in cells (method.average_stress) know no cracks; leave the key out");
-  }
-  if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
   if (definition.cracks.heating > 0.0 && parts.temperature == nullptr) {
     refuse("heating needs a temperature; write transport: {temperature: {}}");
-  }
-  if (!parts.map.divisions().empty())
-    refuse("thin tools with a field on each side are not known to them; write sides: one");
-  if (parts.layout().any_periodic()) refuse("periodic walls are not known to them");
-  if (definition.contact.method == ContactMethod::points && !definition.rigid_bodies.empty()) {
-    refuse("contact of tools at points does not see material near a crack; write contact.method: nodes");
   }
 }
 

@@ -19,10 +19,6 @@ using Fault = std::optional<MethodFault>;
 
 Fault method_part(const SimulationDefinition& d) {
   const MethodDefinition& method = d.method;
-  if (d.geometry == GeometryKind::line || d.geometry == GeometryKind::plane_stress) {
-    return MethodFault{"geometry",
-                       "implicit steps are made for solid, plane_strain and axisymmetric; use method.update: usavg"};
-  }
   const AxisRules axis;
   if (method.axis.domains != axis.domains || method.axis.functions != axis.functions ||
       method.axis.ghosts != axis.ghosts) {
@@ -36,10 +32,6 @@ Fault method_part(const SimulationDefinition& d) {
   if (!plain && transfer.kind != TransferKind::apic) {
     return MethodFault{"method.transfer",
                        "implicit steps have a fraction of flip, pic or apic; leave it out, or write {flip: 0.95}"};
-  }
-  if (method.average_dilatation) {
-    return MethodFault{"method.average_dilatation",
-                       "implicit steps have one stress in a cell, which does not lock; leave it out"};
   }
   if (method.average_stress) {
     return MethodFault{"method.average_stress", "implicit steps have one stress in a cell as it is; leave it out"};
@@ -102,9 +94,6 @@ Fault wall_part(const SimulationDefinition& d) {
   for (std::size_t w = 0; w < d.walls.size(); ++w) {
     const WallDefinition& wall = d.walls[w];
     const std::string key = std::string("boundaries.") + kWallNames[w];
-    if (wall.kind == WallKind::absorbing) {
-      return MethodFault{key, "implicit steps have no waves to absorb; write fixed or slip"};
-    }
     if (wall.kind == WallKind::frictional && !plain(wall.friction)) {
       return MethodFault{
           key,
@@ -116,8 +105,6 @@ Fault wall_part(const SimulationDefinition& d) {
 
 Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) {
   const std::string key = fmt::format("rigid_bodies.{}", body.name);
-  if (body.particles)
-    return MethodFault{key, "implicit steps meet bodies at points of their surface; leave normals: particles out"};
   for (const int axis : axes_of(d.geometry)) {
     const Box bounds = body.surface->bounds();
     if (std::isfinite(bounds.min[axis]) && std::isfinite(bounds.max[axis])) continue;
@@ -126,15 +113,7 @@ Fault tool_part(const SimulationDefinition& d, const RigidBodyDefinition& body) 
         "implicit steps meet bodies at points of their surface, which has to end; write a box that is as large as "
         "the scene needs, or use method.update: usavg"};
   }
-  if (!body.divides.empty()) {
-    return MethodFault{key,
-                       "implicit steps have one velocity at a node, so that nothing is divided; leave divides out, "
-                       "or use method.update: usavg"};
-  }
   if (body.reach > 0.0) return MethodFault{key, "implicit steps have no reach; leave it out"};
-  if (body.sides == Sides::two) {
-    return MethodFault{key, "with implicit steps the two sides of a body share nodes; write sides: one"};
-  }
   std::optional<ContactLaw> first;
   for (const DeformableBody& other : d.bodies) {
     const ContactLaw law = rigid_contact_law(d, body, other.name);
@@ -164,14 +143,6 @@ Fault other_part(const SimulationDefinition& d) {
                                    *d.time.step, kLongestImplicitStep)};
   }
   if (!d.contact.sharp_edges) return MethodFault{"contact.edges", "implicit steps have one kind of edge; leave it out"};
-  if (d.contact.method == ContactMethod::nodes) {
-    return MethodFault{"contact.method", "implicit steps meet bodies at points of their surface; leave it out"};
-  }
-  const auto leave_out = [](const char* key) {
-    return MethodFault{key,
-                       "implicit steps do not have it yet; leave it out, write off where the key has that, or use "
-                       "method.update: usavg"};
-  };
   for (const ConditionDefinition& condition : d.conditions) {
     if (condition.direction.cwiseAbs().maxCoeff() > kAlong) continue;
     return MethodFault{"boundaries.conditions",
@@ -179,10 +150,6 @@ Fault other_part(const SimulationDefinition& d) {
                                    "write two conditions, or use method.update: usavg",
                                    condition.region.name)};
   }
-  if (d.sleep && d.sleep->damping > 0.0) return leave_out("sleep.damping");
-  if (!d.transport.quantities.empty()) return leave_out("transport");
-  if (d.cracks.any()) return leave_out("cracks");
-  if (d.grid.leave_limit > 0) return leave_out("grid.leave");
   return {};
 }
 

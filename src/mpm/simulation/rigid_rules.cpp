@@ -21,12 +21,8 @@ std::string radial_fault(const SimulationDefinition& definition, const RigidBody
   return "it moves along r, off the axis; only a ring has a radial velocity";
 }
 
-std::string free_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
+std::string free_fault(const SimulationDefinition&, const RigidBodyDefinition& body) {
   if (!body.free) return {};
-  if (definition.contact.method == ContactMethod::nodes || body.particles) {
-    return "free: a free body is met at points of the material's surface; write contact: {method: points}, and leave "
-           "out normals: particles";
-  }
   if (body.inner_radius > 0.0) return "free: a ring that opens is not rigid; write another shape";
   if (body.free->axes == std::array<bool, 6>{}) return "free: no velocity is free; leave it out";
   if (!body.free->all_free() && body.free->centre != Vec3::Zero()) {

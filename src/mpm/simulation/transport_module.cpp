@@ -166,11 +166,6 @@ void add_transport(RunParts& parts) {
       for (std::size_t s = 0; s < parts.sets.size(); ++s) of_set.push_back(field->material(static_cast<int>(s)));
       field->add(std::make_unique<SkeletonGain>(shared, of_set));
       const bool averaged = definition.method.average_dilatation;
-      if (averaged && std::any_of(of_set.begin(), of_set.end(), [](const auto& m) { return !is_isotropic(m.biot); })) {
-        throw DefinitionError(
-            "method.average_dilatation: a Biot coefficient that differs between directions works without it alone; "
-            "leave one of the two out");
-      }
       transport->add(std::make_unique<PoreWater>(*field, shared, parts.make_transfer(shape), averaged));
     }
     transport->add(std::move(field));

@@ -1,0 +1,192 @@
+#include "mpm/simulation/feature_rules.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mpm/contact/thin_tool.hpp"
+#include "mpm/transport/pore_water.hpp"
+
+namespace mpm {
+namespace {
+
+using Found = std::optional<std::string>;
+
+Found found_if(bool has) { return has ? Found("") : std::nullopt; }
+
+template <class List, class Test>
+Found named_in(const List& list, Test&& test) {
+  const auto found = std::find_if(list.begin(), list.end(), test);
+  return found == list.end() ? std::nullopt : Found(fmt::format("'{}'", found->name));
+}
+
+Found wall_of(const SimulationDefinition& d, WallKind kind) {
+  for (std::size_t w = 0; w < d.walls.size(); ++w) {
+    if (d.walls[w].kind == kind) return kWallNames[w];
+  }
+  return std::nullopt;
+}
+
+bool has_oblique_biot(const SimulationDefinition& d) {
+  const QuantityDefinition* pores = d.transport.find(Transported::pore_pressure);
+  if (pores == nullptr) return false;
+  return std::any_of(pores->materials.begin(), pores->materials.end(),
+                     [](const TransportMaterial& material) { return !is_isotropic(material.biot); });
+}
+
+/// Words and key of a feature, and how it is found.
+struct Entry {
+  Feature feature;
+  const char* name;
+  const char* key;
+  Found (*find)(const SimulationDefinition&, int ranks);
+};
+
+using D = const SimulationDefinition&;
+
+// In the order of Feature.
+constexpr std::array<Entry, kFeatures> kEntries = {{
+    {Feature::absorbing_faces, "absorbing faces", "boundaries",
+     [](D d, int) { return wall_of(d, WallKind::absorbing); }},
+    {Feature::average_dilatation, "averaged dilatation", "method.average_dilatation",
+     [](D d, int) { return found_if(d.method.average_dilatation); }},
+    {Feature::average_stress, "averaged stress", "method.average_stress",
+     [](D d, int) { return found_if(d.method.average_stress.value_or(false)); }},
+    {Feature::conditions, "velocity conditions", "boundaries.conditions",
+     [](D d, int) { return found_if(!d.conditions.empty()); }},
+    {Feature::contact_at_nodes, "contact at nodes", "contact.method",
+     [](D d, int) { return found_if(d.contact.method == ContactMethod::nodes); }},
+    {Feature::contact_at_points, "contact of tools at points", "contact.method",
+     [](D d, int) { return found_if(d.contact.method == ContactMethod::points && !d.rigid_bodies.empty()); }},
+    {Feature::cracks, "cracks", "cracks", [](D d, int) { return found_if(d.cracks.any()); }},
+    {Feature::divided_bodies, "bodies that a tool divides", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return !body.divides.empty(); }); }},
+    {Feature::free_bodies, "free bodies", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.free.has_value(); }); }},
+    {Feature::implicit_steps, "implicit steps", "method.update",
+     [](D d, int) { return found_if(d.method.update == UpdateScheme::implicit); }},
+    {Feature::leaving, "particles that leave the grid", "grid.leave",
+     [](D d, int) { return found_if(d.grid.leave_limit > 0); }},
+    {Feature::line, "a line", "geometry", [](D d, int) { return found_if(d.geometry == GeometryKind::line); }},
+    {Feature::loads, "loads", "loads",
+     [](D d, int) { return found_if(!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()); }},
+    {Feature::oblique_biot, "a Biot coefficient that differs between directions", "transport.pore_pressure",
+     [](D d, int) { return found_if(has_oblique_biot(d)); }},
+    {Feature::particle_tools, "rigid bodies made of particles", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.particles; }); }},
+    {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, int) { return wall_of(d, WallKind::periodic); }},
+    {Feature::plane_stress, "plane stress", "geometry",
+     [](D d, int) { return found_if(d.geometry == GeometryKind::plane_stress); }},
+    {Feature::pore_pressure, "water in pores", "transport.pore_pressure",
+     [](D d, int) { return found_if(d.transport.find(Transported::pore_pressure) != nullptr); }},
+    {Feature::ranks, "several processes", "method.update", [](D, int ranks) { return found_if(ranks > 1); }},
+    {Feature::sleep, "sleep", "sleep", [](D d, int) { return found_if(d.sleep.has_value()); }},
+    {Feature::sleep_damping, "damping of what falls asleep", "sleep.damping",
+     [](D d, int) { return found_if(d.sleep && d.sleep->damping > 0.0); }},
+    {Feature::solid, "a solid scene", "geometry", [](D d, int) { return found_if(d.geometry == GeometryKind::solid); }},
+    {Feature::thin_tools, "thin tools, whose sides have velocity fields of their own", "rigid_bodies",
+     [](D d, int) {
+       // With implicit steps the sides share nodes unless the scene says otherwise.
+       const bool shared = d.method.update == UpdateScheme::implicit;
+       return named_in(d.rigid_bodies, [&](const auto& body) {
+         return shared || !body.surface ? body.sides == Sides::two : has_sides(body, d.geometry, d.smallest_cell());
+       });
+     }},
+    {Feature::transport, "transport", "transport", [](D d, int) { return found_if(!d.transport.quantities.empty()); }},
+}};
+
+constexpr bool in_order() {
+  for (int i = 0; i < kFeatures; ++i) {
+    if (kEntries[i].feature != static_cast<Feature>(i)) return false;
+  }
+  return true;
+}
+static_assert(in_order());
+
+const Entry& entry(Feature feature) { return kEntries[static_cast<std::size_t>(feature)]; }
+
+constexpr const char* kOneOut = "leave one of the two out";
+constexpr const char* kExplicit = "leave it out, or use method.update: usavg";
+
+}  // namespace
+
+const std::vector<FeatureRule>& feature_rules() {
+  static const std::vector<FeatureRule> kRules = {
+      {Feature::sleep, Feature::loads, "loads act on material wherever it is, and sleep does not know them", kOneOut},
+      {Feature::sleep, Feature::conditions, "they move material wherever it is, and sleep does not know them", kOneOut},
+      {Feature::sleep, Feature::average_dilatation, "it needs the neighbours of every block", kOneOut},
+      {Feature::sleep, Feature::cracks, "what is asleep is not stepped, and cracks do not know it", kOneOut},
+      {Feature::sleep, Feature::transport, "material asleep is not stepped, and transport goes on in it", kOneOut},
+      {Feature::cracks, Feature::line, "a crack is a line in a plane",
+       "write geometry: plane_strain, plane_stress or axisymmetric"},
+      {Feature::cracks, Feature::solid, "a crack is a line in a plane, and would be a surface here",
+       "write geometry: plane_strain, plane_stress or axisymmetric"},
+      {Feature::cracks, Feature::periodic_axes, "a chain does not go on across them",
+       "write faces such as x_min: slip"},
+      {Feature::cracks, Feature::particle_tools, "their nodes have no side of a crack",
+       "leave out its normals: particles"},
+      {Feature::cracks, Feature::thin_tools, "a node has two sides at the most", "write sides: one for it"},
+      {Feature::cracks, Feature::average_stress, "a cell would join the two sides of a crack", "leave the key out"},
+      {Feature::cracks, Feature::contact_at_points, "they do not see on which side of a crack material is",
+       "write contact.method: nodes, which a scene takes by itself"},
+      {Feature::absorbing_faces, Feature::pore_pressure,
+       "they absorb the waves of dry material, and those of wet material are faster",
+       "make the face slip or fixed, farther away"},
+      {Feature::average_dilatation, Feature::oblique_biot, "the mean of a cell has one coefficient for all directions",
+       kOneOut},
+      {Feature::free_bodies, Feature::contact_at_nodes, "a node's contact does not move the body",
+       "leave out contact.method, or write points"},
+      {Feature::free_bodies, Feature::particle_tools, "a free body is met at points of the material's surface",
+       "leave out normals: particles"},
+      {Feature::line, Feature::implicit_steps, "they are made for solid, plane_strain and axisymmetric",
+       "use method.update: usavg"},
+      {Feature::plane_stress, Feature::implicit_steps, "they are made for solid, plane_strain and axisymmetric",
+       "use method.update: usavg"},
+      {Feature::average_dilatation, Feature::implicit_steps, "they have one stress in a cell, which does not lock",
+       "leave it out"},
+      {Feature::average_stress, Feature::implicit_steps, "they have one stress in a cell as it is", "leave it out"},
+      {Feature::absorbing_faces, Feature::implicit_steps, "they have no waves to absorb", "write fixed or slip"},
+      {Feature::particle_tools, Feature::implicit_steps, "they meet bodies at points of their surface",
+       "leave normals: particles out"},
+      {Feature::divided_bodies, Feature::implicit_steps, "they have one velocity at a node, so that nothing is divided",
+       "leave divides out, or use method.update: usavg"},
+      {Feature::thin_tools, Feature::implicit_steps, "with them the two sides of a body share nodes",
+       "write sides: one"},
+      {Feature::contact_at_nodes, Feature::implicit_steps, "they meet bodies at points of their surface",
+       "leave it out"},
+      {Feature::sleep_damping, Feature::implicit_steps, "they have it not yet", kExplicit},
+      {Feature::transport, Feature::implicit_steps, "they have it not yet", kExplicit},
+      {Feature::cracks, Feature::implicit_steps, "they have them not yet", kExplicit},
+      {Feature::leaving, Feature::implicit_steps, "they have it not yet", kExplicit},
+      {Feature::ranks, Feature::implicit_steps, "they run in one process",
+       "start one process, or write method.update: usavg"}};
+  return kRules;
+}
+
+const char* feature_name(Feature feature) { return entry(feature).name; }
+const char* feature_key(Feature feature) { return entry(feature).key; }
+
+std::optional<std::string> find_feature(Feature feature, const SimulationDefinition& definition, int ranks) {
+  return entry(feature).find(definition, ranks);
+}
+
+std::optional<MethodFault> feature_fault(const SimulationDefinition& definition, int ranks,
+                                         std::optional<Feature> coming) {
+  const auto find = [&](Feature feature) {
+    return feature == coming ? Found("") : find_feature(feature, definition, ranks);
+  };
+  for (const FeatureRule& rule : feature_rules()) {
+    const Found own = find(rule.feature);
+    if (!own) continue;
+    const Found other = find(rule.beside);
+    if (!other) continue;
+    const auto named = [](const std::string& who) { return who.empty() ? who : " (" + who + ")"; };
+    return MethodFault{feature_key(rule.feature),
+                       fmt::format("{}{} and {}{} do not go together: {}; {}", feature_name(rule.feature), named(*own),
+                                   feature_name(rule.beside), named(*other), rule.reason, rule.remedy)};
+  }
+  return {};
+}
+
+}  // namespace mpm

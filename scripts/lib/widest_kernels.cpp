@@ -1,5 +1,5 @@
-// Prints the widest instruction set that kernels can be compiled for and this machine has, or nothing: CMakeLists.txt
-// asks.
+// Prints the widest instruction set that kernels can be compiled for and this machine has, or nothing:
+// src/mpm/kernel/kernels.cmake asks.
 #include <cstdio>
 
 int main() {

@@ -1,0 +1,40 @@
+# Makes the tests of nodes and of Python. They wait for most of their time, so scripts/test runs more of them at a time than
+# there are processors; those that are paced by the wall clock it runs beside one another alone.
+
+# Files test/node/NAME_node_test.cpp become one program, node_tests; test/node/NAME.test launches what their cases need.
+file(GLOB node_tests CONFIGURE_DEPENDS test/node/*.test)
+if(bridge_sources)
+  file(GLOB node_test_sources CONFIGURE_DEPENDS test/node/*.cpp)
+  add_executable(node_tests EXCLUDE_FROM_ALL ${node_test_sources})
+  add_dependencies(tests node_tests)
+  set_target_properties(node_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${MPM_TEST_FILES})
+  target_link_libraries(node_tests PRIVATE mpm_ros_bridge test_choice mpm_test_options)
+  target_precompile_headers(node_tests REUSE_FROM bridge_tests)
+  set(paced_tests alive determinism drive endings force_control pacing recording teleop)
+  foreach(launch IN LISTS node_tests)
+    get_filename_component(name ${launch} NAME_WE)
+    add_test(NAME node.${name} COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/run_rostest ${CATKIN_DEVEL_PREFIX} ${launch})
+    set_tests_properties(node.${name} PROPERTIES LABELS "node;waits" TIMEOUT 300)
+    if(MPM_LONG_TESTS)
+      set_tests_properties(node.${name} PROPERTIES TIMEOUT 1800)
+    endif()
+    if(name IN_LIST paced_tests)
+      set_tests_properties(node.${name} PROPERTIES LABELS "node;paced")
+    endif()
+    if(name MATCHES "^full_")
+      set_tests_properties(node.${name} PROPERTIES LABELS full TIMEOUT 3600)
+    endif()
+  endforeach()
+endif()
+
+# Files test/python/NAME_test.py test the Python package, examples and scripts. They start the masters that they need.
+file(GLOB python_tests CONFIGURE_DEPENDS test/python/*_test.py)
+if(bridge_sources)
+  foreach(source IN LISTS python_tests)
+    get_filename_component(name ${source} NAME)
+    string(REGEX REPLACE "_test\\.py$" "" name ${name})
+    add_test(NAME python.${name}
+      COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/run_python_test ${CATKIN_DEVEL_PREFIX} ${source})
+    set_tests_properties(python.${name} PROPERTIES LABELS "python;waits" TIMEOUT 300)
+  endforeach()
+endif()

@@ -23,8 +23,8 @@ enum class Matter { solid, soil, liquid, gas };
 /// which forces on tools were measured.
 enum class ImplicitSteps { refused, possible, measured };
 
-/// Facts about a law, for those who ask: a constant kMatter, kRateDependent and so on of each law. None has a default, so
-/// that a law which does not say it does not compile.
+/// Facts about a law, for those who ask: a constant kMatter, kRateDependent and so on of each law. None has a default,
+/// so that a law which does not say it does not compile.
 struct LawTraits {
   /// Soil is grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).
   Matter matter;

@@ -1,6 +1,6 @@
-// Rule by which `method: auto` takes implicit steps (doc/implicit.md): where all material is soil in which forces were measured, each
-// tool cuts through it or rolls on it, slower than a tenth of the waves, nothing in the scene needs explicit steps, and
-// a step of the usual length spans at least three of them.
+// Rule by which `method: auto` takes implicit steps (doc/implicit.md): where all material is soil in which forces were
+// measured, each tool cuts through it or rolls on it, slower than a tenth of the waves, nothing in the scene needs
+// explicit steps, and a step of the usual length spans at least three of them.
 //
 // A tool cuts that moves more across gravity than along it, and by no more than a cell down where it is in the ground,
 // and rolls that turns and is free to move on. The force on a tool that is pressed down depends on the soil's

@@ -55,8 +55,8 @@ const std::vector<FeatureRule>& feature_rules();
 const char* feature_name(Feature feature);
 /// Key of a scene that asks for it, such as "rigid_bodies".
 const char* feature_key(Feature feature);
-/// Who has the feature, such as "'blade'", or an empty text where that needs no saying; nothing where none has it.
-/// `ranks`: number of processes.
+/// Name of who has the feature, such as "'blade'", or an empty text where that needs no saying; nothing where none has
+/// it. `ranks`: number of processes.
 std::optional<std::string> find_feature(Feature feature, const SimulationDefinition& definition, int ranks);
 
 /// The first rule that a definition breaks, by the key of its first feature; empty when it breaks none. `coming`: a

@@ -88,6 +88,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000))
       ->needs(plan)
       ->excludes(jobs);
+  app.add_flag("--profile", options.profile,
+               "tell at the end where the wall time went: seconds, share and calls by name");
   app.add_flag("--list", list, "list the shipped scenes, and exit");
   app.add_flag("--explain", explain, "report what was chosen for the scene and why, and exit");
   try {

@@ -23,6 +23,7 @@
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/particle_choice.hpp"
 #include "mpm/simulation/report.hpp"
+#include "mpm/step/profile.hpp"
 
 namespace mpm {
 
@@ -69,6 +70,8 @@ struct SimulationOptions {
   /// Asked where `stop` is not: often while the run is put together, and between the stages of a step that has many;
   /// true: it ends at once, see StoppedError.
   std::function<bool()> interrupt = {};
+  /// Counts where the wall time of steps goes; null: nowhere. It outlives the simulation.
+  Profile* profile = nullptr;
 };
 
 class Simulation {

@@ -27,6 +27,7 @@ struct RunSceneOptions {
   std::string out;               ///< folder in which the run gets one of its own, with all of these; empty for none
   std::string resume;            ///< checkpoint to go on from; the scene may then be empty
   std::string checkpoint;        ///< file to save the run to at its end, or when it is stopped; empty: none
+  bool profile = false;          ///< a table of where the wall time went
   std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
   /// That run the scene together, each with the same options; null: this process alone. The first one alone writes
   /// files and lines. One of them that cannot go on ends all (mpm::end_all).

@@ -57,12 +57,16 @@ void Simulation::State::see_courant(double dt, const StepLimit& found) {
 bool Simulation::State::step(double start, double dt, bool more) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{fields, dt, start};
+  context.profile = profile;
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg,
                                      &step_implicit};  // in the order of UpdateScheme
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
-  for (Module* module : modules.list()) module->step_ended();
+  {
+    const Profile::Part part(profile, "modules: end of a step");
+    for (Module* module : modules.list()) module->step_ended();
+  }
   ++steps.steps;
   steps.dt_last = dt;
   steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
@@ -85,6 +89,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
     });
   }
   if (now.sorts) {
+    const Profile::Part part(profile, "sorting of particles");
     sort(start + dt);
   } else if (now.meets) {
     meet_again();
@@ -102,6 +107,10 @@ void Simulation::State::run_period() {
   StepLimit seen = material_limit;
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
+  const auto timed_survey = [this] {
+    const Profile::Part part(profile, "limit of the time step");
+    return survey_material();
+  };
   double part_begin = begin;  // start of those steps
   bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
@@ -113,7 +122,7 @@ void Simulation::State::run_period() {
                                      steps_ahead.number, part_begin));
     }
     if (++since_look < until_look) continue;
-    const StepLimit now = survey_material();
+    const StepLimit now = timed_survey();
     see_courant(steps_ahead.dt, now);
     const double reached = part_begin + (k + 1) * steps_ahead.dt;
     const bool too_near = comes_too_near(steps_ahead.dt, now.dt, cfl);
@@ -130,10 +139,12 @@ void Simulation::State::run_period() {
     seen = now;
   }
   time += definition.time.sync;
-  for (Module* module : modules.list()) module->at_sync(time);
-
+  {
+    const Profile::Part part(profile, "modules: sync point");
+    for (Module* module : modules.list()) module->at_sync(time);
+  }
   previous_limit = material_limit;
-  material_limit = survey_material();
+  material_limit = timed_survey();
   equal_steps(period, material_limit, end);  // ends the run for what is not finite, before it is told of
   see_courant(steps_ahead.dt, material_limit);
   if (divided) ++steps.divided;

@@ -239,6 +239,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.asked_to_stop = std::move(options.stop);
   s.interrupt = std::move(options.interrupt);
   s.settling = std::move(options.settling);
+  s.profile = options.profile;
   s.ranks = std::move(options.ranks);
   s.definition = std::move(given);
   s.warnings = s.definition.warnings;

@@ -28,6 +28,7 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
       parameters_(options.parameters),
       threads_asked_(options.threads),
       stamps_(stamps),
+      profile_(options.profile),
       simulation_(mpm::build(scene, options.ranks.get(), options.stop),
                   mpm::SimulationOptions{options.threads,
                                          mpm::choose_isa(options.isa),
@@ -36,7 +37,8 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
                                          options.stop,
                                          options.settling,
                                          options.ranks,
-                                         options.stop}),
+                                         options.stop,
+                                         options.profile}),
       end_(std::llround(scene.definition.time.end * 1e9)),
       outputs_(simulation_, stamps_, options.output),
       places_(scene.definition.rigid_bodies.size(), Place::outside_yet),
@@ -124,14 +126,18 @@ void Run::advance(std::chrono::steady_clock::duration late) {
     if (jump_.what.empty() || simulation_.time() > jump_.arrival + kJumpRemembered) throw;
     throw mpm::PhysicsError(fmt::format("{}; it follows a jump: {}", error.what(), jump_.what));
   }
-  look_for_lost_bodies();
-  look_for_fast_bodies();
-  look_for_lost_tips();
-  look_for_soft_sweeps();
+  {
+    const mpm::Profile::Part part(profile_, "run: looks for warnings");
+    look_for_lost_bodies();
+    look_for_fast_bodies();
+    look_for_lost_tips();
+    look_for_soft_sweeps();
+  }
   if (simulation_.budget() != nullptr) budget_watch_.look(*simulation_.budget(), simulation_.time(), warnings_);
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;
+  const mpm::Profile::Part part(profile_, "run: outputs");
   outputs_.sync(ended(), real_time_factor());
   close_part();
 }

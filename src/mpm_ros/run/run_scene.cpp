@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <new>
@@ -65,6 +66,7 @@ class OfflineRun {
     RunOptions run_options;
     run_options.threads = options_.threads;
     run_options.ranks = options_.ranks;
+    if (options_.profile) run_options.profile = &profile_;
     run_options.isa = options_.isa;
     run_options.output = output_options(scene_);
     check_fields(run_options.output);
@@ -122,6 +124,7 @@ class OfflineRun {
       err << "note: " << note << "\n";
     if (run_->recorder() != nullptr && run_->recorder()->replaced())
       err << "note: the recording " << run_->bag() << " is replaced\n";
+    const auto began = std::chrono::steady_clock::now();
     bool failed = false, room = true;
     // Writes what else was asked for if one record cannot go on.
     const auto recorded = [&](const auto& work) {
@@ -190,6 +193,10 @@ class OfflineRun {
     if (check_ && room) {
       (check_->passed() ? out << "  " : err << "run_scene: ") << check_->verdict() << "\n";
       if (!check_->passed()) result = RunSceneResult::another_state;
+    }
+    if (options_.profile) {
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - began;
+      out << "where the wall time of the run went, from its first step on:\n" << profile_.table(wall.count());
     }
     if (!failed && !save_last(out, err) && result == RunSceneResult::done) result = RunSceneResult::machine_failed;
     return result;
@@ -304,6 +311,7 @@ class OfflineRun {
   CommandLog commands_;  ///< recorded ones, to be applied again
   std::optional<RerunCheck> check_;
   std::vector<std::string> notes_;
+  mpm::Profile profile_;
   std::unique_ptr<Leavable<CsvSink>> csv_;
   std::unique_ptr<Leavable<VtkSink>> vtk_;
   std::unique_ptr<Run> run_;

@@ -73,7 +73,7 @@ TEST(Profile, NamesPassesAndModules) {
     const double whole = seconds_since(start);
     while (plain.time() < 200'000'000) plain.advance();
     EXPECT_EQ(run.memory_hash(), plain.memory_hash()) << update;
-    const std::uint64_t steps = run.state().steps;
+    const std::uint64_t steps = run.state().step.steps;
     for (const char* name : {"particles: momentum to the grid", "grid: momentum"}) {
       const Profile::Row* row = find(profile, name);
       ASSERT_NE(row, nullptr) << update << name;

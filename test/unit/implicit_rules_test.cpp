@@ -63,10 +63,11 @@ TEST(ImplicitRules, RefuseByTheKeyWhatTheyDoNotHave) {
        "boundaries: conditions: "},
       {{"sleep={damping: 0.5}"}, "sleep: damping: "},
       {{"contact={method: nodes}"}, "contact: method: "},
-      {{"rigid_bodies.tool.sides=two"}, "('tool') and implicit steps do not go together: with them the two sides"},
+      {{"rigid_bodies.tool.sides=two"},
+       "('tool') and implicit steps do not go together: with implicit steps the two sides"},
       {{"rigid_bodies.tool.divides=[bed]"},
-       "rigid_bodies: bodies that a tool divides ('tool') and implicit steps do not go together: they have one "
-       "velocity"},
+       "rigid_bodies: bodies that a tool divides ('tool') and implicit steps do not go together: implicit steps "
+       "have one velocity"},
       {{"method.gradient_terms=3"}, "method: gradient_terms: implicit steps have 2 terms"},
       {{"method.average_stress=false"}, "method: average_stress: implicit steps have one stress in a cell as it is"},
       {{"materials=[{name: sand, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]"},

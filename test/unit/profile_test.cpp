@@ -20,19 +20,19 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-const Profile::Row* find(const Profile& profile, const std::string& name) {
+const TimeProfile::Row* find(const TimeProfile& profile, const std::string& name) {
   const auto& rows = profile.rows();
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
   return found == rows.end() ? nullptr : &*found;
 }
 
 TEST(Profile, TakesPartsWithinOffWhatIsAround) {
-  Profile profile;
+  TimeProfile profile;
   const auto start = Clock::now();
   {
-    const Profile::Part outer(&profile, "outer");
+    const TimeProfile::Part outer(&profile, "outer");
     for (int i = 0; i < 2; ++i) {
-      const Profile::Part inner(&profile, [] { return std::string("inner"); });
+      const TimeProfile::Part inner(&profile, [] { return std::string("inner"); });
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
@@ -47,7 +47,7 @@ TEST(Profile, TakesPartsWithinOffWhatIsAround) {
 }
 
 TEST(Profile, AsksForNoNameWithoutAProfile) {
-  const Profile::Part part(nullptr, []() -> std::string { throw std::logic_error("asked"); });
+  const TimeProfile::Part part(nullptr, []() -> std::string { throw std::logic_error("asked"); });
 }
 
 std::string scene(const std::string& update) {
@@ -62,7 +62,7 @@ std::string scene(const std::string& update) {
 TEST(Profile, NamesPassesAndModules) {
   for (const std::string update : {"usf", "usl", "usavg", "implicit"}) {
     const Scene parsed = parse_scene(scene(update), "scene", {});
-    Profile profile;
+    TimeProfile profile;
     SimulationOptions options;
     options.threads = 1;
     Simulation plain(build(parsed), options);
@@ -75,7 +75,7 @@ TEST(Profile, NamesPassesAndModules) {
     EXPECT_EQ(run.memory_hash(), plain.memory_hash()) << update;
     const std::uint64_t steps = run.state().step.steps;
     for (const char* name : {"particles: momentum to the grid", "grid: momentum"}) {
-      const Profile::Row* row = find(profile, name);
+      const TimeProfile::Row* row = find(profile, name);
       ASSERT_NE(row, nullptr) << update << name;
       EXPECT_GE(row->calls, steps) << update;
       EXPECT_GT(row->seconds, 0.0) << update;

@@ -348,14 +348,14 @@ std::string refusal_beside(const std::string& section, std::size_t number = 0, c
 TEST(SceneCrackBadInput, WhatIsNotYetTogetherWithCracks) {
   EXPECT_EQ(
       refusal_beside("sleep: {speed: 1 mm/s, after: 1 ms}\n"),
-      "bad.yaml:28: sleep: sleep and cracks do not go together: what is asleep is not stepped, and cracks do not know "
-      "it; leave one of the two out");
+      "bad.yaml:28: sleep: sleep and cracks do not go together: material asleep is not stepped, and cracks do not "
+      "know which is; leave one of the two out");
   EXPECT_EQ(refusal_beside("sleep: off\n"), "no error");
   EXPECT_EQ(refusal_beside("transport: {temperature: {}}\n", 6, "    density: 2500\n    heat_capacity: 800"),
             "no error");
   expect_crack_refused(
       15, "boundaries: {x: periodic, z_min: slip, z_max: slip}",
-      "cracks: cracks and periodic axes (x_min) do not go together: a chain does not go on across them; write faces "
+      "cracks: cracks and periodic axes (x) do not go together: a crack does not go on across their faces; write faces "
       "such as x_min: slip",
       "", 17);
   const std::string blade =

@@ -71,7 +71,7 @@ struct SimulationOptions {
   /// true: it ends at once, see StoppedError.
   std::function<bool()> interrupt = {};
   /// Counts where the wall time of steps goes; null: nowhere. It outlives the simulation.
-  Profile* profile = nullptr;
+  TimeProfile* profile = nullptr;
 };
 
 class Simulation {

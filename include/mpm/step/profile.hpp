@@ -13,7 +13,7 @@
 
 namespace mpm {
 
-class Profile {
+class TimeProfile {
  public:
   struct Row {
     std::string name;
@@ -27,7 +27,7 @@ class Profile {
     /// `profile`: may be null. `name`: of a row, a new one or one that is there; or a function that returns it, which
     /// is asked with a profile alone.
     template <class Name>
-    Part(Profile* profile, const Name& name) : profile_(profile) {
+    Part(TimeProfile* profile, const Name& name) : profile_(profile) {
       if (profile_ == nullptr) return;
       if constexpr (std::is_invocable_v<Name>) {
         profile_->begin(name());
@@ -42,7 +42,7 @@ class Profile {
     }
 
    private:
-    Profile* profile_;
+    TimeProfile* profile_;
   };
 
   /// In the order in which they were first begun.

@@ -35,7 +35,7 @@ struct RunOptions {
   /// That compute the run together; null: this process alone. Each has a Run; the first one has all bags and sinks, and
   /// every function of them all is called on all of them.
   std::shared_ptr<mpm::Communicator> ranks;
-  mpm::Profile* profile = nullptr;  ///< as mpm::SimulationOptions has it; with what the run and its outputs take
+  mpm::TimeProfile* profile = nullptr;  ///< as mpm::SimulationOptions has it; with what the run and its outputs take
 };
 
 class Run {
@@ -111,7 +111,7 @@ class Run {
   const std::string parameters_;
   const int threads_asked_;
   const Stamps stamps_;
-  mpm::Profile* const profile_;  ///< as in RunOptions
+  mpm::TimeProfile* const profile_;  ///< as in RunOptions
   mpm::Simulation simulation_;
   const std::int64_t end_;
   std::unique_ptr<BagRecorder> recorder_;

@@ -88,7 +88,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   void momentum_updated(StepContext& context) override {
     const auto timed = [&](const char* name, auto&& work) {
-      const Profile::Part part(context.profile, name);
+      const TimeProfile::Part part(context.profile, name);
       work();
     };
     timed("implicit: particles to cells", [&] {

@@ -98,8 +98,8 @@ const char* scene_kind(GeometryKind geometry) {
 void fail_at(const Map& root, const MethodFault& fault) {
   const std::string section = fault.key.substr(0, fault.key.find('.'));
   const std::string rest = section == fault.key ? fault.text : fault.key.substr(section.size() + 1) + ": " + fault.text;
-  const auto named = root.find(section);
-  (named ? *named : root.at("method")).fail(rest);
+  if (const auto named = root.find(section)) named->fail(rest);
+  root.fail(fault.key + ": " + fault.text);
 }
 
 double particle_spacing(const Scene& scene, int axis) {

@@ -213,10 +213,6 @@ void read_transport(const Map& root, Scene& scene) {
   if (scene.definition.transport.quantities.empty()) {
     section->fail("names no quantity; write temperature, concentration or pore_pressure");
   }
-  if (map.find("pore_pressure") && scene.definition.geometry == GeometryKind::plane_stress) {
-    map.at("pore_pressure")
-        .fail("in plane stress a law has no effective stress across the plate; write geometry: plane_strain");
-  }
 }
 
 }  // namespace mpm

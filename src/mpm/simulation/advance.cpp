@@ -64,7 +64,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
   {
-    const Profile::Part part(profile, "modules: end of a step");
+    const TimeProfile::Part part(profile, "modules: end of a step");
     for (Module* module : modules.list()) module->step_ended();
   }
   ++steps.steps;
@@ -89,7 +89,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
     });
   }
   if (now.sorts) {
-    const Profile::Part part(profile, "sorting of particles");
+    const TimeProfile::Part part(profile, "sorting of particles");
     sort(start + dt);
   } else if (now.meets) {
     meet_again();
@@ -108,7 +108,7 @@ void Simulation::State::run_period() {
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
   const auto timed_survey = [this] {
-    const Profile::Part part(profile, "limit of the time step");
+    const TimeProfile::Part part(profile, "limit of the time step");
     return survey_material();
   };
   double part_begin = begin;  // start of those steps
@@ -140,7 +140,7 @@ void Simulation::State::run_period() {
   }
   time += definition.time.sync;
   {
-    const Profile::Part part(profile, "modules: sync point");
+    const TimeProfile::Part part(profile, "modules: sync point");
     for (Module* module : modules.list()) module->at_sync(time);
   }
   previous_limit = material_limit;

@@ -50,10 +50,10 @@ void check(const SimulationDefinition& d, int ranks) {
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
-  if (const auto fault = implicit_fault(d)) {
+  if (const auto fault = feature_fault(d, ranks)) {
     throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
-  if (const auto fault = feature_fault(d, ranks)) {
+  if (const auto fault = implicit_fault(d)) {
     throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");

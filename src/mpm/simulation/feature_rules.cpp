@@ -28,11 +28,23 @@ Found wall_of(const SimulationDefinition& d, WallKind kind) {
   return std::nullopt;
 }
 
-bool has_oblique_biot(const SimulationDefinition& d) {
+/// The material of a body; before bodies are built there is none.
+Found oblique_biot(const SimulationDefinition& d) {
   const QuantityDefinition* pores = d.transport.find(Transported::pore_pressure);
-  if (pores == nullptr) return false;
-  return std::any_of(pores->materials.begin(), pores->materials.end(),
-                     [](const TransportMaterial& material) { return !is_isotropic(material.biot); });
+  if (pores == nullptr) return std::nullopt;
+  for (std::size_t m = 0; m < std::min(d.materials.size(), pores->materials.size()); ++m) {
+    const auto is_of = [&](const DeformableBody& body) { return body.material == d.materials[m].name; };
+    if (is_isotropic(pores->materials[m].biot) || std::none_of(d.bodies.begin(), d.bodies.end(), is_of)) continue;
+    return fmt::format("'{}'", d.materials[m].name);
+  }
+  return std::nullopt;
+}
+
+Found periodic_axis(const SimulationDefinition& d) {
+  for (std::size_t w = 0; w < d.walls.size(); ++w) {
+    if (d.walls[w].kind == WallKind::periodic) return std::string(1, "xyz"[w / 2]);
+  }
+  return std::nullopt;
 }
 
 /// Words and key of a feature, and how it is found.
@@ -72,10 +84,10 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
     {Feature::loads, "loads", "loads",
      [](D d, int) { return found_if(!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()); }},
     {Feature::oblique_biot, "a Biot coefficient that differs between directions", "transport.pore_pressure",
-     [](D d, int) { return found_if(has_oblique_biot(d)); }},
+     [](D d, int) { return oblique_biot(d); }},
     {Feature::particle_tools, "rigid bodies made of particles", "rigid_bodies",
      [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.particles; }); }},
-    {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, int) { return wall_of(d, WallKind::periodic); }},
+    {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, int) { return periodic_axis(d); }},
     {Feature::plane_stress, "plane stress", "geometry",
      [](D d, int) { return found_if(d.geometry == GeometryKind::plane_stress); }},
     {Feature::pore_pressure, "water in pores", "transport.pore_pressure",
@@ -114,53 +126,62 @@ constexpr const char* kExplicit = "leave it out, or use method.update: usavg";
 const std::vector<FeatureRule>& feature_rules() {
   static const std::vector<FeatureRule> kRules = {
       {Feature::sleep, Feature::loads, "loads act on material wherever it is, and sleep does not know them", kOneOut},
-      {Feature::sleep, Feature::conditions, "they move material wherever it is, and sleep does not know them", kOneOut},
-      {Feature::sleep, Feature::average_dilatation, "it needs the neighbours of every block", kOneOut},
-      {Feature::sleep, Feature::cracks, "what is asleep is not stepped, and cracks do not know it", kOneOut},
+      {Feature::sleep, Feature::conditions, "conditions move material wherever it is, and sleep does not know them",
+       kOneOut},
+      {Feature::sleep, Feature::average_dilatation, "averages need the neighbours of every block", kOneOut},
+      {Feature::sleep, Feature::cracks, "material asleep is not stepped, and cracks do not know which is", kOneOut},
       {Feature::sleep, Feature::transport, "material asleep is not stepped, and transport goes on in it", kOneOut},
       {Feature::cracks, Feature::line, "a crack is a line in a plane",
        "write geometry: plane_strain, plane_stress or axisymmetric"},
       {Feature::cracks, Feature::solid, "a crack is a line in a plane, and would be a surface here",
        "write geometry: plane_strain, plane_stress or axisymmetric"},
-      {Feature::cracks, Feature::periodic_axes, "a chain does not go on across them",
+      {Feature::cracks, Feature::implicit_steps, "implicit steps have one velocity at a node", kExplicit},
+      {Feature::cracks, Feature::periodic_axes, "a crack does not go on across their faces",
        "write faces such as x_min: slip"},
-      {Feature::cracks, Feature::particle_tools, "their nodes have no side of a crack",
+      {Feature::cracks, Feature::particle_tools, "the nodes of such a body have no side of a crack",
        "leave out its normals: particles"},
-      {Feature::cracks, Feature::thin_tools, "a node has two sides at the most", "write sides: one for it"},
+      {Feature::cracks, Feature::free_bodies,
+       "tools meet cracked material at nodes, and contact at nodes does not move a body", kOneOut},
+      {Feature::cracks, Feature::thin_tools, "cracks do not know the fields of a tool's two sides",
+       "write sides: one for it"},
       {Feature::cracks, Feature::average_stress, "a cell would join the two sides of a crack", "leave the key out"},
-      {Feature::cracks, Feature::contact_at_points, "they do not see on which side of a crack material is",
-       "write contact.method: nodes, which a scene takes by itself"},
+      {Feature::cracks, Feature::contact_at_points, "points do not see on which side of a crack material is",
+       "write contact.method: nodes, or leave it out"},
       {Feature::absorbing_faces, Feature::pore_pressure,
-       "they absorb the waves of dry material, and those of wet material are faster",
+       "the faces absorb the waves of dry material, and those of wet material are faster",
        "make the face slip or fixed, farther away"},
+      {Feature::pore_pressure, Feature::plane_stress, "a law there has no effective stress across the plate",
+       "write geometry: plane_strain"},
       {Feature::average_dilatation, Feature::oblique_biot, "the mean of a cell has one coefficient for all directions",
        kOneOut},
-      {Feature::free_bodies, Feature::contact_at_nodes, "a node's contact does not move the body",
+      {Feature::free_bodies, Feature::contact_at_nodes, "contact at nodes does not move a body",
        "leave out contact.method, or write points"},
       {Feature::free_bodies, Feature::particle_tools, "a free body is met at points of the material's surface",
        "leave out normals: particles"},
-      {Feature::line, Feature::implicit_steps, "they are made for solid, plane_strain and axisymmetric",
+      {Feature::line, Feature::implicit_steps, "implicit steps are made for solid, plane_strain and axisymmetric",
        "use method.update: usavg"},
-      {Feature::plane_stress, Feature::implicit_steps, "they are made for solid, plane_strain and axisymmetric",
-       "use method.update: usavg"},
-      {Feature::average_dilatation, Feature::implicit_steps, "they have one stress in a cell, which does not lock",
+      {Feature::plane_stress, Feature::implicit_steps,
+       "implicit steps are made for solid, plane_strain and axisymmetric", "use method.update: usavg"},
+      {Feature::average_dilatation, Feature::implicit_steps,
+       "implicit steps have one stress in a cell, which does not lock", "leave it out"},
+      {Feature::average_stress, Feature::implicit_steps, "implicit steps have one stress in a cell as it is",
        "leave it out"},
-      {Feature::average_stress, Feature::implicit_steps, "they have one stress in a cell as it is", "leave it out"},
-      {Feature::absorbing_faces, Feature::implicit_steps, "they have no waves to absorb", "write fixed or slip"},
-      {Feature::particle_tools, Feature::implicit_steps, "they meet bodies at points of their surface",
+      {Feature::absorbing_faces, Feature::implicit_steps, "implicit steps have no waves to absorb",
+       "write fixed or slip"},
+      {Feature::particle_tools, Feature::implicit_steps, "implicit steps meet bodies at points of their surface",
        "leave normals: particles out"},
-      {Feature::divided_bodies, Feature::implicit_steps, "they have one velocity at a node, so that nothing is divided",
+      {Feature::divided_bodies, Feature::implicit_steps,
+       "implicit steps have one velocity at a node, so that nothing is divided",
        "leave divides out, or use method.update: usavg"},
-      {Feature::thin_tools, Feature::implicit_steps, "with them the two sides of a body share nodes",
+      {Feature::thin_tools, Feature::implicit_steps, "with implicit steps the two sides of a body share nodes",
        "write sides: one"},
-      {Feature::contact_at_nodes, Feature::implicit_steps, "they meet bodies at points of their surface",
+      {Feature::contact_at_nodes, Feature::implicit_steps, "implicit steps meet bodies at points of their surface",
        "leave it out"},
-      {Feature::sleep_damping, Feature::implicit_steps, "they have it not yet", kExplicit},
-      {Feature::transport, Feature::implicit_steps, "they have it not yet", kExplicit},
-      {Feature::cracks, Feature::implicit_steps, "they have them not yet", kExplicit},
-      {Feature::leaving, Feature::implicit_steps, "they have it not yet", kExplicit},
-      {Feature::ranks, Feature::implicit_steps, "they run in one process",
-       "start one process, or write method.update: usavg"}};
+      {Feature::sleep_damping, Feature::implicit_steps, "implicit steps have no such damping", kExplicit},
+      {Feature::transport, Feature::implicit_steps, "implicit steps do not have transport yet", kExplicit},
+      {Feature::leaving, Feature::implicit_steps, "implicit steps do not let particles leave yet", kExplicit},
+      {Feature::ranks, Feature::implicit_steps, "implicit steps run in one process",
+       "start one process, or write method.update: usavg, also where method: auto has chosen them"}};
   return kRules;
 }
 

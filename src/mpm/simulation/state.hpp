@@ -75,7 +75,7 @@ struct Simulation::State {
   std::shared_ptr<Communicator> ranks;
   std::unique_ptr<OverRanks> over;  ///< over several ranks, else null
   std::function<void(const Settling&)> settling;
-  Profile* profile = nullptr;  ///< as in SimulationOptions
+  TimeProfile* profile = nullptr;  ///< as in SimulationOptions
 
   std::vector<ParticleSet> sets;
   std::vector<std::uint64_t> sizes;  ///< size of each set, on all ranks

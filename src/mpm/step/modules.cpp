@@ -62,7 +62,7 @@ void Modules::put_in_order() {
 void Modules::act(Hook hook, StepContext& context) const {
   const auto h = static_cast<std::size_t>(hook);
   for (const Call& call : calls_[h]) {
-    const Profile::Part part(context.profile, [&] {
+    const TimeProfile::Part part(context.profile, [&] {
       return "module: " + (call.across != nullptr ? call.across->name() : call.in_field->name());
     });
     if (call.across != nullptr) {

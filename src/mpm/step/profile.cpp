@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-void Profile::begin(const std::string& name) {
+void TimeProfile::begin(const std::string& name) {
   const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row.name == name; });
   const auto row = static_cast<std::size_t>(found - rows_.begin());
   if (found == rows_.end()) rows_.push_back({name, 0.0, 0});
@@ -14,7 +14,7 @@ void Profile::begin(const std::string& name) {
   open_.push_back({row, Clock::now()});
 }
 
-void Profile::end() {
+void TimeProfile::end() {
   const Open ended = open_.back();
   open_.pop_back();
   const double seconds = std::chrono::duration<double>(Clock::now() - ended.since).count();
@@ -22,13 +22,13 @@ void Profile::end() {
   if (!open_.empty()) open_.back().within += seconds;
 }
 
-double Profile::seconds() const {
+double TimeProfile::seconds() const {
   double sum = 0.0;
   for (const Row& row : rows_) sum += row.seconds;
   return sum;
 }
 
-std::string Profile::table(double whole) const {
+std::string TimeProfile::table(double whole) const {
   std::vector<Row> rows = rows_;
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.seconds > b.seconds; });
   rows.push_back({"else", std::max(whole - seconds(), 0.0), 1});

@@ -5,7 +5,7 @@ namespace {
 
 template <class Work>
 void timed(const StepContext& context, const char* name, Work&& work) {
-  const Profile::Part part(context.profile, name);
+  const TimeProfile::Part part(context.profile, name);
   work();
 }
 

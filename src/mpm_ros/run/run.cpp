@@ -127,7 +127,7 @@ void Run::advance(std::chrono::steady_clock::duration late) {
     throw mpm::PhysicsError(fmt::format("{}; it follows a jump: {}", error.what(), jump_.what));
   }
   {
-    const mpm::Profile::Part part(profile_, "run: looks for warnings");
+    const mpm::TimeProfile::Part part(profile_, "run: looks for warnings");
     look_for_lost_bodies();
     look_for_fast_bodies();
     look_for_lost_tips();
@@ -137,7 +137,7 @@ void Run::advance(std::chrono::steady_clock::duration late) {
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;
-  const mpm::Profile::Part part(profile_, "run: outputs");
+  const mpm::TimeProfile::Part part(profile_, "run: outputs");
   outputs_.sync(ended(), real_time_factor());
   close_part();
 }

@@ -311,7 +311,7 @@ class OfflineRun {
   CommandLog commands_;  ///< recorded ones, to be applied again
   std::optional<RerunCheck> check_;
   std::vector<std::string> notes_;
-  mpm::Profile profile_;
+  mpm::TimeProfile profile_;
   std::unique_ptr<Leavable<CsvSink>> csv_;
   std::unique_ptr<Leavable<VtkSink>> vtk_;
   std::unique_ptr<Run> run_;

@@ -25,15 +25,8 @@ std::string clay(const std::string& boundaries, const std::string& rest = "", do
       kWidth, kYoung, kPoisson, cohesion, kWidth, kHeight, boundaries, rest);
 }
 
+using verification::given;
 using verification::start_text;
-
-/// Impulse on the material since the start [N s].
-mpm::Vec3 given(const mpm::Simulation& run, const std::string& name) {
-  for (const mpm::NamedImpulse& one : run.state().audit.impulses) {
-    if (one.name == name) return one.impulse;
-  }
-  return mpm::Vec3::Zero();
-}
 
 /// The row of nodes at the upper end moves along z, faster and faster, by 1 % of the height in a second.
 const std::string kPressed =

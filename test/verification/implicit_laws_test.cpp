@@ -53,16 +53,11 @@ TEST(ImplicitLaws, ShearedMetalHardens) {
   for (const bool voce : {false, true}) {
     mpm::Simulation run = start_text(sheared(voce ? kVoce : kLinear));
     for (const double end : {0.3, 0.6, 1.0}) {
-      const auto given = [&] {
-        for (const mpm::NamedImpulse& one : run.state().audit.impulses) {
-          if (one.name == "condition/lid") return one.impulse.x();
-        }
-        return 0.0;
-      };
       verification::run_until(run, end - 0.1);
-      const double before = given();
+      const double before = verification::given(run, "condition/lid").x();
       verification::run_until(run, end);
-      const double found = (given() - before) / (0.1 * kWidth), exact = shear_stress(voce, 0.1 * (end - 0.05));
+      const double found = (verification::given(run, "condition/lid").x() - before) / (0.1 * kWidth),
+                   exact = shear_stress(voce, 0.1 * (end - 0.05));
       EXPECT_NEAR(found / exact, 1.0, 0.01) << voce << end;
       RecordProperty(fmt::format("{}_{}", voce ? "voce" : "linear", end), fmt::format("{:.4f}", found / exact));
     }

@@ -29,6 +29,14 @@ inline mpm::Simulation start_text(const std::string& text, const std::vector<std
   return mpm::Simulation(mpm::build(mpm::parse_scene(text, "scene", overrides)), {threads});
 }
 
+/// Impulse on the material since the start [N s].
+inline mpm::Vec3 given(const mpm::Simulation& run, const std::string& name) {
+  for (const mpm::NamedImpulse& one : run.state().audit.impulses) {
+    if (one.name == name) return one.impulse;
+  }
+  return mpm::Vec3::Zero();
+}
+
 /// Expects the same state at `end` [s] on 1, 2 and 3 threads, and of a run that goes on from a checkpoint at `part`
 /// [s].
 inline void expect_kept_bits(const std::string& text, double part, double end) {

@@ -4,6 +4,9 @@
 // Source: crack reference 4.7; Freund (1990), Dynamic fracture mechanics, chapter 4.
 #pragma once
 
+#include <optional>
+
+#include "mpm/material/definition.hpp"
 #include "mpm/math/geometry_kind.hpp"
 
 namespace mpm {
@@ -33,6 +36,10 @@ struct ElasticConstants {
   /// Speed of surface waves, the limit of an opening tip's speed [m/s]; infinite for density 0.
   double rayleigh_speed() const;
 };
+
+/// Constants of a material whose stress intensities follow from J: isotropic, elastic but for what yields near the tip;
+/// none of other materials.
+std::optional<ElasticConstants> elastic_constants_of(const MaterialDefinition& material, GeometryKind geometry);
 
 /// Factors of a tip that runs at a constant speed. At rest both factors of energy are (kappa + 1) / 4.
 struct RunningTip {

@@ -18,8 +18,6 @@
 namespace mpm {
 
 inline constexpr double kMomentum = 0.9;
-/// Modulus that sweeps have to resolve over the stress that they carry, at the least.
-inline constexpr double kResolvedLoad = 30.0;
 inline constexpr int kMostSweeps = 200;  ///< without a number in the scene
 
 /// Largest pressure, over the modulus that sweeps resolve, under which soil answers as it should: with 1/20 to 1/40 a

@@ -1,5 +1,5 @@
-// Rules of what implicit steps go together with. Asked when a scene is read, when a Simulation is put together (which
-// refuses several ranks, too), and by the choice of the method.
+// Rules of the values that implicit steps take, beside the features that they do not go together with
+// (feature_rules.hpp). Asked when a scene is read, when a Simulation is put together, and by the choice of the method.
 #pragma once
 
 #include <optional>

@@ -66,4 +66,11 @@ class TimeProfile {
   std::vector<Open> open_;
 };
 
+/// Does `work` as a part of `profile`, which may be null.
+template <class Work>
+decltype(auto) timed(TimeProfile* profile, const char* name, Work&& work) {
+  const TimeProfile::Part part(profile, name);
+  return work();
+}
+
 }  // namespace mpm

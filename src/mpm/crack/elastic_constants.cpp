@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "mpm/material/law.hpp"
 #include "mpm/math/constants.hpp"
 
 namespace mpm {
@@ -18,6 +19,13 @@ double rayleigh_function(double b, double ratio) {
 }
 
 }  // namespace
+
+std::optional<ElasticConstants> elastic_constants_of(const MaterialDefinition& material, GeometryKind geometry) {
+  const LawTraits traits = traits_of(material);
+  const std::optional<Elasticity> elasticity = elasticity_of(material.law);
+  if (!elasticity || traits.matter != Matter::solid || traits.rate_dependent) return std::nullopt;
+  return ElasticConstants::of(elasticity->young, elasticity->poisson, material.density, geometry);
+}
 
 double ElasticConstants::dilatational_speed() const {
   return density > 0.0 ? shear_speed() / std::sqrt(squared_ratio_of_waves(kappa())) : kInfinity;

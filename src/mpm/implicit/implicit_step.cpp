@@ -87,24 +87,20 @@ class ImplicitStep final : public Stage, public ContactReporter {
   bool needs_sort() const override { return sorts_; }
 
   void momentum_updated(StepContext& context) override {
-    const auto timed = [&](const char* name, auto&& work) {
-      const TimeProfile::Part part(context.profile, name);
-      work();
-    };
-    timed("implicit: particles to cells", [&] {
+    timed(context.profile, "implicit: particles to cells", [&] {
       if (soil_grid_.rebuild()) cells_.rebuild();
       load();
       cells_.gather(table_, nodes_, context.dt);
     });
-    timed("implicit: contact", [&] {
+    timed(context.profile, "implicit: contact", [&] {
       tools_.clear();
       walls_.clear();
       soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
       tools_.find(nodes_, context.start, context.dt);
       walls_.find(nodes_, context.dt);
     });
-    timed("implicit: sweeps", [&] { solve(context.start, context.dt); });
-    timed("implicit: cells to particles", [&] {
+    timed(context.profile, "implicit: sweeps", [&] { solve(context.start, context.dt); });
+    timed(context.profile, "implicit: cells to particles", [&] {
       cells_.take(table_, nodes_, context.dt);
       store(context.dt);
     });

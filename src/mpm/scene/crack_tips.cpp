@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mpm/crack/chain.hpp"
+#include "mpm/crack/elastic_constants.hpp"
 #include "mpm/crack/fracture_criterion.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/scene/sections.hpp"
@@ -32,14 +33,6 @@ std::size_t material_of(const std::string& name, const Scene& scene) {
 }
 
 bool has_strain_energy(const LawDefinition& law) { return traits_of(law).matter == Matter::solid; }
-
-/// Constants of materials whose stress intensities follow from J: isotropic, elastic but for what yields near the tip.
-std::optional<ElasticConstants> constants_of(const MaterialDefinition& material, GeometryKind geometry) {
-  const LawTraits traits = traits_of(material);
-  const std::optional<Elasticity> elasticity = elasticity_of(material.law);
-  if (!elasticity || traits.matter != Matter::solid || traits.rate_dependent) return std::nullopt;
-  return ElasticConstants::of(elasticity->young, elasticity->poisson, material.density, geometry);
-}
 
 /// Refuses a rule that asks for the openings of faces that are not followed.
 void check_fixed(const Value& end, const GrowthRule& rule, const CrackDefinition& crack, const CracksDefinition& all) {
@@ -74,7 +67,7 @@ void check_growth(const Value& end, const CrackDefinition& crack, std::size_t ma
   const CracksDefinition& cracks = scene.definition.cracks;
   const FractureConstants& constants = cracks.materials[material];
   const MaterialDefinition& definition = scene.definition.materials[material];
-  const std::optional<ElasticConstants> elastic = constants_of(definition, scene.definition.geometry);
+  const std::optional<ElasticConstants> elastic = elastic_constants_of(definition, scene.definition.geometry);
   const GrowthRule first = constants.growth.value_or(cracks.growth);
   const GrowthRule second = constants.alternate.value_or(cracks.alternate);
   for (const bool alternate : {false, true}) {

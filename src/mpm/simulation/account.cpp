@@ -4,9 +4,9 @@
 #include <limits>
 #include <numeric>
 
-#include "mpm/material/law.hpp"
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -156,7 +156,7 @@ const RunTotals& Simulation::State::find_totals() {
   totals.of_set.resize(sets.size());
   MaterialTotals& of_all = totals.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (traits_of(laws[i]).matter != Matter::soil) totals.energy.leave_open();
+    if (!closes_energy(traits_of(laws[i]))) totals.energy.leave_open();
     of_all += std::visit(
         [&](const auto& law) {
           return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads, totals.of_set[i]);

@@ -63,10 +63,9 @@ bool Simulation::State::step(double start, double dt, bool more) {
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
-  {
-    const TimeProfile::Part part(profile, "modules: end of a step");
+  timed(profile, "modules: end of a step", [&] {
     for (Module* module : modules.list()) module->step_ended();
-  }
+  });
   ++steps.steps;
   steps.dt_last = dt;
   steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
@@ -89,8 +88,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
     });
   }
   if (now.sorts) {
-    const TimeProfile::Part part(profile, "sorting of particles");
-    sort(start + dt);
+    timed(profile, "sorting of particles", [&] { sort(start + dt); });
   } else if (now.meets) {
     meet_again();
   }
@@ -108,8 +106,7 @@ void Simulation::State::run_period() {
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
   const auto timed_survey = [this] {
-    const TimeProfile::Part part(profile, "limit of the time step");
-    return survey_material();
+    return timed(profile, "limit of the time step", [this] { return survey_material(); });
   };
   double part_begin = begin;  // start of those steps
   bool divided = false;
@@ -139,10 +136,9 @@ void Simulation::State::run_period() {
     seen = now;
   }
   time += definition.time.sync;
-  {
-    const TimeProfile::Part part(profile, "modules: sync point");
+  timed(profile, "modules: sync point", [&] {
     for (Module* module : modules.list()) module->at_sync(time);
-  }
+  });
   previous_limit = material_limit;
   material_limit = timed_survey();
   equal_steps(period, material_limit, end);  // ends the run for what is not finite, before it is told of

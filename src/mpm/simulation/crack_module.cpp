@@ -13,21 +13,6 @@
 namespace mpm {
 namespace {
 
-/// Constants of isotropic elastic materials.
-std::optional<ElasticConstants> elastic_of(const MaterialDefinition& material, GeometryKind geometry) {
-  return std::visit(
-      [&](const auto& law) -> std::optional<ElasticConstants> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, LinearElasticDefinition> ||
-                      std::is_same_v<std::decay_t<decltype(law)>, NeoHookeanDefinition> ||
-                      std::is_same_v<std::decay_t<decltype(law)>, J2PlasticityDefinition>) {
-          return ElasticConstants::of(law.elasticity.young, law.elasticity.poisson, material.density, geometry);
-        } else {
-          return std::nullopt;
-        }
-      },
-      material.law);
-}
-
 /// Energies that growth can be paid from: dissipation by damping and transfer is how the waves of growth leave the
 /// body.
 BodyEnergies body_energies(const EnergyReport& energy) {
@@ -46,7 +31,7 @@ TipSettings tip_settings(const RunParts& parts) {
     FractureMaterial made;
     made.name = material.name;
     if (m < asked.materials.size()) made.constants = asked.materials[m];
-    made.elastic = elastic_of(material, definition.geometry);
+    made.elastic = elastic_constants_of(material, definition.geometry);
     made.wave_speed = made.elastic ? made.elastic->dilatational_speed() : 0.0;
     settings.materials.push_back(std::move(made));
   }

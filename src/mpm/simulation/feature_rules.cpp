@@ -41,10 +41,8 @@ Found oblique_biot(const SimulationDefinition& d) {
 }
 
 Found periodic_axis(const SimulationDefinition& d) {
-  for (std::size_t w = 0; w < d.walls.size(); ++w) {
-    if (d.walls[w].kind == WallKind::periodic) return std::string(1, "xyz"[w / 2]);
-  }
-  return std::nullopt;
+  const Found face = wall_of(d, WallKind::periodic);
+  return face ? Found(face->substr(0, 1)) : face;
 }
 
 /// Words and key of a feature, and how it is found.

@@ -61,13 +61,13 @@ Fault strength_part(const SimulationDefinition& d, const MaterialDefinition& mat
   const double yield = ImplicitSoil(material).yield_stress, step = d.time.step.value_or(kImplicitStep);
   const int sweeps = d.method.sweeps.value_or(kMostSweeps);
   const double cell = d.smallest_cell(), modulus = modulus_of(sweeps) * material.density * cell * cell / (step * step);
-  if (kResolvedLoad * yield <= modulus) return {};
+  if (yield <= kMostSweepLoad * modulus) return {};
   return MethodFault{
       "materials",
       fmt::format("'{}' bears {:.3g} kPa, of which {} sweeps in a step of {:g} ms carry {:.3g} kPa on cells of {:g} m; "
                   "write a time.step of {:.2g} ms, or use method.update: usavg",
-                  material.name, 1e-3 * yield, sweeps, 1e3 * step, 1e-3 * modulus / kResolvedLoad, cell,
-                  1e3 * step * std::sqrt(modulus / (kResolvedLoad * yield)))};
+                  material.name, 1e-3 * yield, sweeps, 1e3 * step, 1e-3 * kMostSweepLoad * modulus, cell,
+                  1e3 * step * std::sqrt(kMostSweepLoad * modulus / yield))};
 }
 
 Fault material_part(const SimulationDefinition& d) {

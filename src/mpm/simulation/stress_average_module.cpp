@@ -1,4 +1,6 @@
 // Mean stresses of cells as a module, for bodies whose material can share its stress.
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "mpm/mechanics/stress_average.hpp"
@@ -17,10 +19,10 @@ void add_stress_average(RunParts& parts) {
   }
   if (sets.empty()) {
     if (!definition.method.average_stress) return;
-    throw DefinitionError(
-        "method.average_stress: no body is of drucker_prager, mohr_coulomb, mu_i or norsand, or of j2_plasticity that "
-        "does not "
-        "expand with heat or moisture, whose stresses it averages; leave it out");
+    throw DefinitionError(fmt::format(
+        "method.average_stress: no body has a stress that can be averaged; laws that have one are {}, and metal that "
+        "expands with heat or moisture has none; leave it out",
+        law_names([](const LawTraits& traits) { return traits.averages_stress; })));
   }
   parts.modules.add(std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads, parts.halo));
 }

@@ -12,19 +12,9 @@ int temperature_index(const Law& law) {
 }
 
 double bulk_modulus(const LawDefinition& law) {
-  return std::visit(
-      [](const auto& own) {
-        using Kind = std::decay_t<decltype(own)>;
-        if constexpr (std::is_same_v<Kind, NewtonianFluidDefinition>) {
-          return own.bulk_modulus;
-        } else if constexpr (std::is_same_v<Kind, JohnsonCookDefinition> || std::is_same_v<Kind, IdealGasDefinition> ||
-                             std::is_same_v<Kind, CamClayDefinition> || std::is_same_v<Kind, NorSandDefinition>) {
-          return 0.0;
-        } else {
-          return own.elasticity.bulk();
-        }
-      },
-      law);
+  if (const auto* fluid = std::get_if<NewtonianFluidDefinition>(&law)) return fluid->bulk_modulus;
+  const std::optional<Elasticity> elasticity = elasticity_of(law);
+  return elasticity ? elasticity->bulk() : 0.0;
 }
 
 PlasticHeat::PlasticHeat(std::vector<ParticleSet>& sets, std::vector<HeatOfSet> heat)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "mpm/simulation/method_rules.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
@@ -314,9 +315,9 @@ std::vector<CheckResult> RunChecks::results() const {
   std::map<std::string, std::string> not_made;
   if (!first_balance_) {
     not_made.emplace("balance",
-                     "made of drucker_prager and mohr_coulomb alone, moved by flip in explicit steps; not with contact "
-                     "between deformable bodies "
-                     "or tools of particles");
+                     fmt::format("made of {} alone, moved by flip in explicit steps; not with contact between "
+                                 "deformable bodies or tools of particles",
+                                 mpm::law_names(mpm::closes_energy)));
   } else if (spent_ == 0.0) {
     not_made.emplace("balance", "no energy was spent");
   }

@@ -126,13 +126,12 @@ void Run::advance(std::chrono::steady_clock::duration late) {
     if (jump_.what.empty() || simulation_.time() > jump_.arrival + kJumpRemembered) throw;
     throw mpm::PhysicsError(fmt::format("{}; it follows a jump: {}", error.what(), jump_.what));
   }
-  {
-    const mpm::TimeProfile::Part part(profile_, "run: looks for warnings");
+  mpm::timed(profile_, "run: looks for warnings", [this] {
     look_for_lost_bodies();
     look_for_fast_bodies();
     look_for_lost_tips();
     look_for_soft_sweeps();
-  }
+  });
   if (simulation_.budget() != nullptr) budget_watch_.look(*simulation_.budget(), simulation_.time(), warnings_);
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;

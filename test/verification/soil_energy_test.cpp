@@ -51,7 +51,7 @@ TEST(SoilEnergy, IsFoundAgainWhereAColumnCollapses) {
   }
 }
 
-// Of the work of the plate, which is given and taken.
+// Bound over the work of the plate, which is given and taken.
 TEST(SoilEnergy, IsFoundAgainWhereAPlateMovesUpAndDown) {
   for (const std::string& law : kOfOwnStiffness) {
     mpm::Simulation run = verification::start_text(pumped(law), {}, 2);

@@ -41,7 +41,7 @@ class CamClay : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = true;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = false;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 4;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "mpm/math/error.hpp"
 
@@ -26,6 +27,8 @@ class NeoHookean;
 class NewtonianFluid;
 class NorSand;
 class StandardLinearSolid;
+class UserLaw;
+struct UserLawKind;
 
 /// Thrown for constants outside their range.
 class MaterialError : public Error {
@@ -233,10 +236,21 @@ struct StandardLinearSolidDefinition {
   double relaxation_time = 0.0;  ///< time of the branch [s], > 0
 };
 
+/// A law that a program has added (user_law.hpp).
+struct UserLawDefinition {
+  using Law = UserLaw;
+  static constexpr const char* kName = "law of a user";
+  const UserLawKind* kind = nullptr;
+  Elasticity elasticity;          ///< stiffness at small strain
+  std::vector<double> constants;  ///< values of UserLawKind::constants [SI]
+  /// @throws MaterialError for a key that the law does not have
+  double constant(const std::string& key) const;
+};
+
 using LawDefinition =
     std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
                  J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition,
-                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition, NorSandDefinition>;
+                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition, NorSandDefinition, UserLawDefinition>;
 
 struct MaterialDefinition {
   std::string name;

@@ -40,7 +40,7 @@ class DruckerPrager : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::measured;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;

@@ -23,7 +23,7 @@ class IdealGas : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = true;
   static constexpr bool kForgetsShape = true;
   static constexpr bool kAveragesStress = false;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::volume;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 1;
   static constexpr int kTemperature = 0;

@@ -19,6 +19,13 @@ struct Increment {
 
 enum class Matter { solid, soil, liquid, gas };
 
+/// The variables from which a law computes its stress: it advances the one that it had; finds the pressure from J and
+/// advances the deviator; or finds all from J, or from F.
+enum class StressSource { stress, volume_and_stress, volume, deformation };
+constexpr bool finds_pressure(StressSource source) {
+  return source == StressSource::volume_and_stress || source == StressSource::volume;
+}
+
 /// Implicit steps (implicit/soil_law.hpp): a law that has none of its own is refused, and `method: auto` takes those in
 /// which forces on tools were measured.
 enum class ImplicitSteps { refused, possible, measured };
@@ -36,14 +43,26 @@ struct LawTraits {
   /// Particles of a cell that flow may share one stress (mechanics/stress_average.hpp): the law has a plastic strain,
   /// keeps the stress or finds it from J, and its elastic_energy() does not ask for F.
   bool averages_stress;
-  /// Such a law finds the pressure from J. Its particles then share in tension, too: it does not open as soil.
-  bool pressure_from_volume;
+  /// Particles of a law that finds its pressure from J share in tension, too: it does not open as soil.
+  StressSource stress_from;
   ImplicitSteps implicit;
   bool flows;            ///< deforms without end: fluids, and what has a plastic strain
   bool own_temperature;  ///< has a temperature in its history
 
   bool fluid() const { return matter == Matter::liquid || matter == Matter::gas; }
 };
+
+template <class OneLaw>
+constexpr LawTraits kTraitsOf{
+    OneLaw::kMatter,
+    OneLaw::kRateDependent,
+    OneLaw::kStiffnessOfPressure,
+    OneLaw::kForgetsShape,
+    OneLaw::kAveragesStress,
+    OneLaw::kStressFrom,
+    OneLaw::kImplicit,
+    OneLaw::kPlasticStrain >= 0 || OneLaw::kMatter == Matter::liquid || OneLaw::kMatter == Matter::gas,
+    OneLaw::kTemperature >= 0};
 
 /// State at which a law is asked for the elastic part of a strain.
 struct StressedPoint {

@@ -33,7 +33,7 @@ class J2Plasticity : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
-  static constexpr bool kPressureFromVolume = true;
+  static constexpr StressSource kStressFrom = StressSource::volume_and_stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::possible;
   static constexpr int kHistory = 2;
   static constexpr int kPlasticStrain = 0;

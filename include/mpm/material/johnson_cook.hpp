@@ -38,7 +38,7 @@ class JohnsonCook : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = false;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::volume_and_stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 4;
   static constexpr int kPlasticStrain = 0;

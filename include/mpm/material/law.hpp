@@ -32,6 +32,7 @@
 #include "mpm/material/newtonian_fluid.hpp"
 #include "mpm/material/norsand.hpp"
 #include "mpm/material/standard_linear_solid.hpp"
+#include "mpm/material/user_law.hpp"
 
 namespace mpm {
 
@@ -44,26 +45,19 @@ struct LawsOf<std::variant<Definition...>> {
 using Law = LawsOf<LawDefinition>::type;
 
 template <class OneLaw>
-constexpr LawTraits kTraitsOf{
-    OneLaw::kMatter,
-    OneLaw::kRateDependent,
-    OneLaw::kStiffnessOfPressure,
-    OneLaw::kForgetsShape,
-    OneLaw::kAveragesStress,
-    OneLaw::kPressureFromVolume,
-    OneLaw::kImplicit,
-    OneLaw::kPlasticStrain >= 0 || OneLaw::kMatter == Matter::liquid || OneLaw::kMatter == Matter::gas,
-    OneLaw::kTemperature >= 0};
-
+LawTraits traits_of(const OneLaw&) {
+  return kTraitsOf<OneLaw>;
+}
+inline LawTraits traits_of(const UserLaw& law) { return law.kind().traits; }
 inline LawTraits traits_of(const Law& law) {
-  return std::visit([](const auto& own) { return kTraitsOf<std::decay_t<decltype(own)>>; }, law);
+  return std::visit([](const auto& own) { return traits_of(own); }, law);
 }
-inline LawTraits traits_of(const LawDefinition& law) {
-  return std::visit([](const auto& own) { return kTraitsOf<typename std::decay_t<decltype(own)>::Law>; }, law);
-}
+LawTraits traits_of(const LawDefinition& law);
 inline LawTraits traits_of(const MaterialDefinition& material) { return traits_of(material.law); }
 
-/// Names of the laws whose traits fit, as "a, b and c".
+/// True if one of the list, not one of a user's, has this name.
+bool listed_law(const std::string& name);
+/// Names of the laws whose traits fit, those of users last, as "a, b and c".
 std::string law_names(bool (*fits)(const LawTraits&));
 
 /// Makes the law of a material. @throws MaterialError as check() does

@@ -16,7 +16,7 @@ class LinearElastic : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = false;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   LinearElastic(const LinearElasticDefinition& d, double density)
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}

@@ -32,7 +32,7 @@ class MohrCoulomb : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::measured;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de, as in Drucker-Prager

@@ -29,7 +29,7 @@ class MuI : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = true;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::stress;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::possible;
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;

@@ -18,7 +18,7 @@ class NeoHookean : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = false;
   static constexpr bool kAveragesStress = false;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::deformation;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   NeoHookean(const NeoHookeanDefinition& d, double density)
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}

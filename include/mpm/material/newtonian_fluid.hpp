@@ -22,7 +22,7 @@ class NewtonianFluid : public LawDefaults {
   static constexpr bool kStiffnessOfPressure = false;
   static constexpr bool kForgetsShape = true;
   static constexpr bool kAveragesStress = false;
-  static constexpr bool kPressureFromVolume = false;
+  static constexpr StressSource kStressFrom = StressSource::volume;
   static constexpr ImplicitSteps kImplicit = ImplicitSteps::refused;
   static constexpr int kHistory = 1;
   static constexpr int kPlasticWork = 0;  ///< work of the viscous stress

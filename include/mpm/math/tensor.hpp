@@ -96,6 +96,12 @@ Symmetric3<ScalarOf<T>> lane(const Symmetric3<T>& s, int i) {
 }
 
 template <class T>
+Matrix3<ScalarOf<T>> lane(const Matrix3<T>& m, int i) {
+  return {lane(m.xx, i), lane(m.xy, i), lane(m.xz, i), lane(m.yx, i), lane(m.yy, i),
+          lane(m.yz, i), lane(m.zx, i), lane(m.zy, i), lane(m.zz, i)};
+}
+
+template <class T>
 void set_lane(Symmetric3<T>& s, int i, const Symmetric3<ScalarOf<T>>& value) {
   set_lane(s.xx, i, value.xx);
   set_lane(s.yy, i, value.yy);

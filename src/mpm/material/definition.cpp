@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mpm/material/user_law.hpp"
 #include "mpm/math/constants.hpp"
 
 namespace mpm {
@@ -203,6 +204,16 @@ struct Checker {
             fmt::format("heat capacity ratio is {:g}; it must be finite and above 1", law.heat_capacity_ratio));
     require_not_negative(law.ambient, material, "ambient pressure", " Pa");
   }
+  void operator()(const UserLawDefinition& law) const {
+    require(law.kind != nullptr, material, "no law is named; add one by add_user_law() and name its kind");
+    check(material, law.elasticity);
+    require(law.constants.size() == law.kind->constants.size(), material,
+            fmt::format("found {} constants; '{}' has {}", law.constants.size(), law.kind->name,
+                        law.kind->constants.size()));
+    for (std::size_t i = 0; i < law.constants.size(); ++i) {
+      require(std::isfinite(law.constants[i]), material, fmt::format("{} is not finite", law.kind->constants[i].key));
+    }
+  }
   void operator()(const StandardLinearSolidDefinition& law) const {
     check(material, law.elasticity);
     require_positive(law.branch_modulus, material, "branch modulus", " Pa");
@@ -261,6 +272,7 @@ std::optional<double> friction_angle(const LawDefinition& law) {
 }
 
 std::string law_name(const LawDefinition& law) {
+  if (const auto* own = std::get_if<UserLawDefinition>(&law)) return own->kind->name;
   return std::visit([](const auto& own) { return own.kName; }, law);
 }
 

@@ -23,23 +23,6 @@ constexpr double kSame = 1e-9;        // part of the largest component below whi
 constexpr double kRoundOff = 1e-14;   // part of the stiffness below which they are: the last digit of a stretch
 constexpr double kCompatible = 1e-6;  // as kSame, for a stress along y from the scene
 
-/// The variables from which a law computes its stress. A law that is not listed does not compile.
-enum class StressSource { stress, volume_and_stress, volume, deformation };
-struct StressSourceOf {
-  StressSource operator()(const LinearElastic&) const { return StressSource::stress; }
-  StressSource operator()(const DruckerPrager&) const { return StressSource::stress; }
-  StressSource operator()(const MohrCoulomb&) const { return StressSource::stress; }
-  StressSource operator()(const MuI&) const { return StressSource::stress; }
-  StressSource operator()(const CamClay&) const { return StressSource::stress; }
-  StressSource operator()(const NorSand&) const { return StressSource::stress; }
-  StressSource operator()(const J2Plasticity&) const { return StressSource::volume_and_stress; }
-  StressSource operator()(const JohnsonCook&) const { return StressSource::volume_and_stress; }
-  StressSource operator()(const NewtonianFluid&) const { return StressSource::volume; }
-  StressSource operator()(const IdealGas&) const { return StressSource::volume; }
-  StressSource operator()(const NeoHookean&) const { return StressSource::deformation; }
-  StressSource operator()(const StandardLinearSolid&) const { return StressSource::deformation; }
-};
-
 struct PoissonRatio {
   template <class Definition>
   auto operator()(const Definition& d) const -> decltype(d.elasticity, std::optional<double>()) {
@@ -118,7 +101,7 @@ int InitialStates::temperature_index() const {
 }
 
 bool InitialStates::yy_is_bound() const {
-  return geometry_ == GeometryKind::plane_strain && std::visit(StressSourceOf(), law_) == StressSource::deformation;
+  return geometry_ == GeometryKind::plane_strain && traits_of(law_).stress_from == StressSource::deformation;
 }
 
 Symmetric3<double> InitialStates::relaxed(const InitialState& state) const {
@@ -161,7 +144,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
   if (geometry_ == GeometryKind::plane_stress && cauchy.yy != 0.0) {
     refuse(fmt::format("cannot have yy = {:.6g} Pa in plane stress, which has none; leave yy out", cauchy.yy));
   }
-  const StressSource source = std::visit(StressSourceOf(), law_);
+  const StressSource source = traits_of(law_).stress_from;
   // A locked axis has no strain relative to the state without stress; a fluid has the same pressure in all directions.
   const double ratio = std::visit(PoissonRatio(), material_.law).value_or(0.5);
   const bool follows =

@@ -42,7 +42,7 @@ class Particles {
 
   Particles(ParticleSet& set, const LawType& law, double* strain_before)
       : set_(set), strain_(set.history[LawType::kPlasticStrain].template data<T>()), before_(strain_before) {
-    if constexpr (!LawType::kPressureFromVolume) {
+    if constexpr (!finds_pressure(LawType::kStressFrom)) {
       const double speed = law.wave_speed(Matrix3<double>::identity(), Symmetric3<double>{}, 1.0);
       least_pressure_ = kPressure * speed * speed;
     }
@@ -52,7 +52,7 @@ class Particles {
 
   bool flows(std::uint32_t p) const {
     if (!(strain_[p] > before_[p] + kFlow)) return false;
-    return LawType::kPressureFromVolume || Tensor::mean(stress(p)) < -least_pressure_;
+    return finds_pressure(LawType::kStressFrom) || Tensor::mean(stress(p)) < -least_pressure_;
   }
   void remember(std::uint32_t p) { before_[p] = strain_[p]; }
   double mass(std::uint32_t p) const { return set_.mass_of(static_cast<int>(p)); }

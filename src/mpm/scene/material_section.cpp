@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mpm/material/user_law.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -237,10 +238,38 @@ const std::vector<LawSection>& law_sections() {
   return sections;
 }
 
-const LawSection& find_section(const Value& law) {
+/// Reads the constants of a law that a program has added.
+LawDefinition read_user_law(const UserLawKind& kind, const Map& map) {
+  UserLawDefinition law;
+  law.kind = &kind;
+  law.elasticity = read_elasticity(map);
+  for (const UserConstant& constant : kind.constants) {
+    const auto value = constant.otherwise ? map.find(constant.key) : map.at(constant.key);
+    const Dimension dimension = constant.unit.empty() ? kPlain : parse_unit(constant.unit).dimension;
+    law.constants.push_back(value ? value->number(dimension) : *constant.otherwise);
+  }
+  return law;
+}
+
+std::size_t law_number(const Value& law) {
   std::vector<std::string> names;
   for (const LawSection& section : law_sections()) names.emplace_back(section.name);
-  return law_sections()[law.choice(names, later_laws())];
+  for (const UserLawKind* kind : user_laws()) names.push_back(kind->name);
+  return law.choice(names, later_laws());
+}
+
+std::vector<std::string> keys_of_law(std::size_t number) {
+  const std::size_t listed = law_sections().size();
+  if (number < listed) return law_sections()[number].keys;
+  std::vector<std::string> keys = {"young", "poisson"};
+  for (const UserConstant& constant : user_laws()[number - listed]->constants) keys.push_back(constant.key);
+  return keys;
+}
+
+LawDefinition read_law(const Map& map, Scene& scene) {
+  const std::size_t number = law_number(map.at("law")), listed = law_sections().size();
+  if (number < listed) return law_sections()[number].read(map, scene);
+  return read_user_law(*user_laws()[number - listed], map);
 }
 
 /// Reports a refused constant at the key that it was read from. The text of the check begins with the name of the
@@ -270,8 +299,8 @@ Map material_map(const Value& value, const Map& root) {
   // below.
   const YAML::Node law = value.is_map() ? value.node()["law"] : YAML::Node();
   if (value.is_map() && law && law.IsScalar()) {
-    const LawSection& section = find_section(value.child(law, "law"));
-    keys.insert(keys.end(), section.keys.begin(), section.keys.end());
+    const std::vector<std::string> own = keys_of_law(law_number(value.child(law, "law")));
+    keys.insert(keys.end(), own.begin(), own.end());
   } else if (value.is_map()) {
     for (const LawSection& section : law_sections()) keys.insert(keys.end(), section.keys.begin(), section.keys.end());
   }
@@ -286,7 +315,7 @@ MaterialDefinition read_material(const Map& map, Scene& scene) {
   MaterialDefinition material;
   material.name = map.at("name").name();
   material.density = map.at("density").number(kDensity);
-  material.law = find_section(map.at("law")).read(map, scene);
+  material.law = read_law(map, scene);
   try {
     check(material);
   } catch (const MaterialError& error) {

@@ -177,7 +177,7 @@ bool shares_stress(const SimulationDefinition& definition, const DeformableBody&
     return number < quantity.materials.size() && quantity.materials[number].expansion != 0.0;
   });
   const LawTraits traits = traits_of(material);
-  return traits.averages_stress && !(traits.pressure_from_volume && expands);
+  return traits.averages_stress && !(finds_pressure(traits.stress_from) && expands);
 }
 
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {

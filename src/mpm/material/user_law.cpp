@@ -1,0 +1,60 @@
+#include "mpm/material/user_law.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "mpm/material/law.hpp"
+
+namespace mpm {
+namespace {
+
+/// Kinds by their place, which does not change, and the list of them. Made at the first call, which may come before
+/// main().
+struct Added {
+  std::deque<UserLawKind> kinds;
+  std::vector<const UserLawKind*> list;
+};
+Added& added() {
+  static Added all;
+  return all;
+}
+
+}  // namespace
+
+const std::vector<const UserLawKind*>& user_laws() { return added().list; }
+
+bool add_user_law(UserLawKind kind) {
+  bool taken = listed_law(kind.name);
+  for (const UserLawKind* other : user_laws()) taken = taken || other->name == kind.name;
+  if (taken) throw MaterialError(fmt::format("a second law '{}'; give it a name of its own", kind.name));
+  std::vector<std::string> keys = {"name", "density", "law", "young", "poisson"};
+  for (const UserConstant& constant : kind.constants) {
+    if (std::find(keys.begin(), keys.end(), constant.key) != keys.end()) {
+      throw MaterialError(fmt::format("law '{}' has the key '{}' twice; leave one out", kind.name, constant.key));
+    }
+    keys.push_back(constant.key);
+  }
+  added().kinds.push_back(std::move(kind));
+  added().list.push_back(&added().kinds.back());
+  return true;
+}
+
+UserLaw::UserLaw(const UserLawDefinition& definition, double density)
+    : calls_(definition.kind->calls), kind_(definition.kind), density_(density) {
+  definition.kind->make(definition, density, law_.data());
+}
+
+Symmetric3<double> UserLaw::elastic_strain(const StressedPoint& at) const {
+  return kind_->elastic_strain(law_.data(), at);
+}
+
+double UserLawDefinition::constant(const std::string& key) const {
+  for (std::size_t i = 0; i < kind->constants.size(); ++i) {
+    if (kind->constants[i].key == key) return constants.at(i);
+  }
+  throw MaterialError(fmt::format("law '{}' has no constant '{}'; add it where the law is added", kind->name, key));
+}
+
+}  // namespace mpm

@@ -3,7 +3,7 @@
 
     scripts/build --mpi
     source build_mpi/devel/setup.bash
-    benchmark/over_ranks/measure.py                # the tables of scaling in doc/scale.md, three rounds
+    benchmark/over_ranks/measure.py                # the tables of scaling in doc/ranks.md, three rounds
     benchmark/over_ranks/measure.py --rounds 1 --strong 2 --weak ""
 
 Strong: speed_block_3d_million, a million particles in all. Weak: bars of the same cross-section, 250,000 particles a

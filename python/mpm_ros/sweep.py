@@ -1,4 +1,4 @@
-"""Sweeps: many runs of one scene with other values, by `run_scene --sweep`. doc/scale.md describes plans and folders."""
+"""Sweeps: many runs of one scene with other values, by `run_scene --sweep`. doc/sweeps.md describes plans and folders."""
 import json
 import os
 import subprocess

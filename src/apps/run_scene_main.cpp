@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   mpm_ros::RunSweepOptions sweep;
   auto* plan =
       app.add_option("--sweep", sweep.plan,
-                     "run a plan of many runs (doc/scale.md), or go on with the folder of one; --out is that folder");
+                     "run a plan of many runs (doc/sweeps.md), or go on with the folder of one; --out is that folder");
   auto* jobs = app.add_option("--jobs", sweep.jobs,
                               "runs of a sweep at once; 0: lay it out only; without it as many as the machine carries")
                    ->check(CLI::Range(0, 1024))

@@ -1,7 +1,7 @@
 // Every shipped scene over 1, 2, 3 and 8 ranks: as on one process over a hundred steps or more.
 //
 // Scenes run as they are shipped, but for: cells of the scene of a million particles, which are coarser; the rover's
-// soil, of which there is less before its wheel, in double precision (doc/scale.md); and a probe that waits for
+// soil, of which there is less before its wheel, in double precision (doc/ranks.md); and a probe that waits for
 // commands, which presses. Those in which soil sleeps run awake, too, on coarser cells, a blade with one side.
 //
 // What is computed in single precision is asked to agree to its last places, and to 1e-10 in double precision.

@@ -1,4 +1,4 @@
-// A plan of many runs of one scene: which keys of the scene take which values (doc/scale.md). It is read and checked
+// A plan of many runs of one scene: which keys of the scene take which values (doc/sweeps.md). It is read and checked
 // here, and each run's scene with it; nothing is run.
 //
 //   const mpm::sweep::Plan plan = mpm::sweep::read_plan("plan.yaml");

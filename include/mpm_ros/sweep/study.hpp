@@ -1,4 +1,4 @@
-// The folder of a sweep, and what is known of its runs. doc/scale.md lists the files.
+// The folder of a sweep, and what is known of its runs. doc/sweeps.md lists the files.
 //
 //   STUDY/plan.yaml, scene.yaml          the plan and its scene, from which the study can be laid out again
 //   STUDY/runs/0001/scene.yaml           the scene of the run, with all that the plan sets

@@ -16,6 +16,7 @@
 #include "mpm/contact/pair_normal.hpp"
 #include "mpm/crack/definition.hpp"
 #include "mpm/material/definition.hpp"
+#include "mpm/math/error.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/tensor.hpp"
@@ -31,6 +32,12 @@
 #include "mpm/transport/definition.hpp"
 
 namespace mpm {
+
+/// A definition that cannot be simulated (bad input: exit code 2).
+class DefinitionError : public Error {
+ public:
+  using Error::Error;
+};
 
 struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
@@ -212,5 +219,8 @@ struct SimulationDefinition {
   /// Shortest edge of a grid cell [m].
   double smallest_cell() const { return shortest_edge(grid.cell, geometry); }
 };
+
+/// Material of a body. @throws DefinitionError when there is none of that name
+const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
 
 }  // namespace mpm

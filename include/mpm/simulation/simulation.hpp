@@ -30,12 +30,6 @@ namespace mpm {
 struct CutStep;
 class SweepBudget;
 
-/// A definition that cannot be simulated (bad input: exit code 2).
-class DefinitionError : public Error {
- public:
-  using Error::Error;
-};
-
 /// The physics failed (exit code 3): J <= 0, a value that is not finite, a particle outside the domain.
 /// what() names the particle, the step, the place and the likely remedy.
 class PhysicsError : public Error {

@@ -113,13 +113,6 @@ void project(SimulationDefinition& definition) {
 
 }  // namespace
 
-const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
-  for (const MaterialDefinition& material : definition.materials) {
-    if (material.name == body.material) return material;
-  }
-  throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
-}
-
 Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body) {
   if (axisymmetric(geometry)) return axial_twist(twist, body);
   Twist kept = twist;

@@ -9,7 +9,6 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/material/law.hpp"
 #include "shipped_modules.hpp"
-#include "state.hpp"
 
 namespace mpm {
 namespace {

@@ -11,7 +11,7 @@
 #include "mpm/contact/rigid_particle_contact.hpp"
 #include "mpm/contact/tool_sides.hpp"
 #include "mpm/mechanics/mass_places.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "rigid_contacts.hpp"
 #include "shipped_modules.hpp"
 

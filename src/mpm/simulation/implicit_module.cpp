@@ -5,10 +5,9 @@
 #include <algorithm>
 
 #include "mpm/implicit/implicit_step.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "rigid_contacts.hpp"
 #include "shipped_modules.hpp"
-#include "state.hpp"
 
 namespace mpm {
 

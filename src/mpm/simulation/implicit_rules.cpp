@@ -10,7 +10,6 @@
 #include "mpm/implicit/sweep_momentum.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "rigid_contacts.hpp"
-#include "state.hpp"
 
 namespace mpm {
 namespace {

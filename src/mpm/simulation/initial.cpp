@@ -8,7 +8,7 @@
 
 #include "mpm/math/dimension.hpp"
 #include "mpm/ranks/agree.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "particle_start.hpp"
 
 namespace mpm {

@@ -7,7 +7,7 @@
 
 #include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "shipped_modules.hpp"
 
 namespace mpm {

@@ -7,7 +7,6 @@
 
 #include "mpm/kernel/select.hpp"
 #include "mpm/material/law.hpp"
-#include "state.hpp"
 
 namespace mpm {
 namespace {

@@ -14,7 +14,7 @@
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 namespace {

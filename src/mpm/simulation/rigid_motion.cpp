@@ -7,7 +7,7 @@
 
 #include "mpm/boundary/periodic.hpp"
 #include "mpm/math/dimension.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "shipped_modules.hpp"
 
 namespace mpm {

@@ -168,9 +168,6 @@ struct Simulation::State {
 /// True if a metric is a force or a torque on a rigid body.
 bool is_wrench(const MetricDefinition& metric);
 
-/// @throws DefinitionError when there is none of that name
-const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
-
 /// Deformation gradient and stress of one particle as full tensors (what a geometry does not store filled in), for what
 /// is not a kernel.
 struct ParticleTensors {

@@ -5,7 +5,7 @@
 
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/simulation/method_rules.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "shipped_modules.hpp"
 
 namespace mpm {

@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "mpm/ranks/agree.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "mpm/transport/face_flux.hpp"
 #include "mpm/transport/heat_gains.hpp"
 #include "mpm/transport/transport.hpp"
 #include "shipped_modules.hpp"
-#include "state.hpp"
 
 namespace mpm {
 namespace {

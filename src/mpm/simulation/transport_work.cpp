@@ -9,7 +9,7 @@
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/simulation/layout.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "mpm/transport/stages.hpp"
 #include "mpm/transport/transported_field.hpp"
 

@@ -7,7 +7,7 @@
 #include "mpm/contact/thin_tool.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/simulation/layout.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 namespace {

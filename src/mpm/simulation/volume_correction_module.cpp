@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "mpm/mechanics/volume_correction.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/simulation/definition.hpp"
 #include "shipped_modules.hpp"
 
 namespace mpm {

@@ -394,7 +394,7 @@ TEST(AutoMethod, BadKeysSayWhatToWrite) {
             start + ".cost: a budget is an error or a cost, not both; leave one out");
   EXPECT_EQ(why("{auto: true}").find(start + ": found one value; write keys, of strain, turn, error, cost"), 0U);
   EXPECT_EQ(why("auot").find("bad.yaml:5: method: 'auot' is not known; did you mean 'auto'?"), 0U) << why("auot");
-  EXPECT_EQ(why("{auto: {}, shape: dirac, transfer: apic}").find("bad.yaml:5: method.transfer: apic needs"), 0U);
+  EXPECT_EQ(why("{auto: {}, shape: dirac, transfer: apic}").find("bad.yaml:5: method.transfer: apic and particles"), 0U);
   const std::string line =
       "geometry: line\ngrid: {cell: 0.1, min: 0, max: 1}\n"
       "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0}]\n"

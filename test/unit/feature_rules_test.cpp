@@ -31,11 +31,18 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::absorbing_faces:
       d.walls[1].kind = WallKind::absorbing;
       break;
+    case Feature::apic:
+      d.method.transfer.kind = TransferKind::apic;
+      break;
     case Feature::average_dilatation:
       d.method.average_dilatation = true;
       break;
     case Feature::average_stress:
       d.method.average_stress = true;
+      break;
+    case Feature::body_laws:
+      d.contact.pairs.emplace_back();
+      d.contact.pairs.back().second = "bed";
       break;
     case Feature::conditions:
       d.conditions.emplace_back();
@@ -49,6 +56,10 @@ void add(Feature feature, SimulationDefinition& d) {
       break;
     case Feature::cracks:
       d.cracks.list.emplace_back();
+      break;
+    case Feature::damping:
+      d.method.damping.grid = Function(1.0);
+      d.method.damping.in_force = true;
       break;
     case Feature::divided_bodies:
       add_body(d).divides = {"bed"};
@@ -72,13 +83,16 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::pore_pressure:
     case Feature::transport: {
       QuantityDefinition quantity;
-      quantity.quantity = feature == Feature::transport ? Transported::temperature : Transported::pore_pressure;
+      quantity.quantity = feature == Feature::transport ? Transported::concentration : Transported::pore_pressure;
       quantity.materials.resize(2);
       quantity.materials[0].biot = quantity.materials[1].biot = Symmetric3<double>::isotropic(1.0);
       if (feature == Feature::oblique_biot) quantity.materials[0].biot.xx = 0.5;
       d.transport.quantities.push_back(quantity);
       break;
     }
+    case Feature::particle_damping:
+      d.method.damping.particle = Function(1.0);
+      break;
     case Feature::particle_tools:
       add_body(d).particles = true;
       break;
@@ -88,7 +102,13 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::plane_stress:
       d.geometry = GeometryKind::plane_stress;
       break;
+    case Feature::point_particles:
+      d.method.shape = ShapeKind::dirac;
+      break;
     case Feature::ranks:
+      break;
+    case Feature::rings:
+      add_body(d).inner_radius = 0.1;
       break;
     case Feature::sleep:
       if (!d.sleep) d.sleep.emplace();
@@ -102,6 +122,17 @@ void add(Feature feature, SimulationDefinition& d) {
       break;
     case Feature::thin_tools:
       add_body(d).sides = Sides::two;
+      break;
+    case Feature::tool_heat: {
+      QuantityDefinition heat;
+      heat.quantity = Transported::temperature;
+      heat.materials.resize(2);
+      heat.tools.emplace_back();
+      d.transport.quantities.push_back(heat);
+      break;
+    }
+    case Feature::tool_laws:
+      add_body(d).friction.adhesion = 1.0;
       break;
   }
 }
@@ -129,13 +160,14 @@ int processes(const std::vector<Feature>& features) {
 std::set<Feature> had_by(const std::vector<Feature>& asked) {
   std::set<Feature> had(asked.begin(), asked.end());
   const auto has = [&](Feature feature) { return had.count(feature) > 0; };
-  for (const Feature tool :
-       {Feature::particle_tools, Feature::divided_bodies, Feature::free_bodies, Feature::thin_tools}) {
+  for (const Feature tool : {Feature::particle_tools, Feature::divided_bodies, Feature::free_bodies, Feature::rings,
+                             Feature::thin_tools, Feature::tool_laws}) {
     if (has(tool) && !has(Feature::contact_at_nodes)) had.insert(Feature::contact_at_points);
   }
   if (has(Feature::sleep_damping)) had.insert(Feature::sleep);
   if (has(Feature::oblique_biot)) had.insert(Feature::pore_pressure);
-  if (has(Feature::pore_pressure)) had.insert(Feature::transport);
+  if (has(Feature::pore_pressure) || has(Feature::tool_heat)) had.insert(Feature::transport);
+  if (has(Feature::particle_damping)) had.insert(Feature::damping);
   return had;
 }
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "mpm/simulation/feature_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "particle_block.hpp"
 
@@ -62,8 +63,6 @@ TEST(RigidRules, WhatAFreeBodyCanBe) {
 TEST(RigidRules, WhatABodyAboutAnAxisCanDo) {
   const GeometryKind ring = GeometryKind::axisymmetric;
   expect_refused(
-      "free: a ring that opens is not rigid", [](auto& d) { d.rigid_bodies[0].inner_radius = 0.1; }, ring);
-  expect_refused(
       "it moves along r, off the axis", [](auto& d) { d.rigid_bodies[0].velocity[0] = 1.0; }, ring);
 }
 
@@ -83,19 +82,18 @@ TEST(RigidRules, WhatIsThickDividesNothing) {
   EXPECT_EQ(rigid_fault(asked, asked.rigid_bodies[0]), "");
 }
 
-TEST(RigidRules, ContactAtNodesHasOneFriction) {
-  const auto at_nodes = [](const std::function<void(SimulationDefinition&)>& change) {
-    return [change](SimulationDefinition& d) {
-      d.rigid_bodies[0].free.reset();
-      d.contact.method = ContactMethod::nodes;
-      EXPECT_EQ(rigid_fault(d, d.rigid_bodies[0]), "");
-      change(d);
-    };
+// More than one constant friction, which contact at nodes does not have (feature_rules.hpp).
+TEST(RigidRules, LawsOfATool) {
+  const SimulationDefinition plain = ball_over_block(GeometryKind::plane_strain);
+  const auto has_law = [&](const std::function<void(SimulationDefinition&)>& change) {
+    SimulationDefinition d = plain;
+    change(d);
+    return find_feature(Feature::tool_laws, d, 1).has_value();
   };
-  const std::string no_laws = "contact at nodes has no laws of pairs, friction at rest or adhesion";
-  expect_refused(no_laws, at_nodes([](auto& d) { d.rigid_bodies[0].friction.static_coefficient = 0.2; }));
-  expect_refused(no_laws, at_nodes([](auto& d) { d.rigid_bodies[0].friction.adhesion = 1.0; }));
-  expect_refused(no_laws, at_nodes([](auto& d) { d.contact.pairs = {{"block", "ball", ContactLaw()}}; }));
+  EXPECT_FALSE(has_law([](auto&) {}));
+  EXPECT_TRUE(has_law([](auto& d) { d.rigid_bodies[0].friction.static_coefficient = 0.2; }));
+  EXPECT_TRUE(has_law([](auto& d) { d.rigid_bodies[0].friction.adhesion = 1.0; }));
+  EXPECT_TRUE(has_law([](auto& d) { d.contact.pairs = {{"block", "ball", ContactLaw()}}; }));
 }
 
 // A law belongs to a velocity field there. The second body is drawn into the first one's field by its definition.

@@ -138,7 +138,7 @@ TEST(SceneMethod, CombinationsThatCannotWork) {
   for (const char* shape : {"ugimp", "ugimp_stretch", "cpdi", "qcpdi", "bspline2", "bspline3"}) {
     EXPECT_NO_THROW(method_of(std::string("transfer: apic, shape: ") + shape)) << shape;
   }
-  expect_refused("shape: dirac, transfer: apic", "transfer: apic needs the inverse");
+  expect_refused("shape: dirac, transfer: apic", "transfer: apic and particles that are points");
   expect_said("shape: dirac, transfer: apic", "use another shape, such as ugimp, or transfer {xpic: 2}");
   // 9 particles per cell are 3 along an edge in a planar scene; in a solid one they are not possible.
   EXPECT_EQ(method_of("particles_per_cell: 9").particles_per_direction, 3);
@@ -272,7 +272,8 @@ TEST(SceneMethod, ApicIsDampedOnTheNodes) {
   EXPECT_NO_THROW(method_of("transfer: apic, damping: {feedback: {gain: 1}}"));
   for (const char* damping : {"{particle: 5}", "{grid: 5, placement: update}", "\"5*x\"",
                               "{feedback: {gain: 1, of: particle}}", "{feedback: {gain: 1}, placement: update}"}) {
-    expect_refused(std::string("transfer: apic, damping: ") + damping, "damping: apic keeps a part of the motion");
+    expect_refused(std::string("transfer: apic, damping: ") + damping,
+                   "damping: damping of the particles' velocity and apic");
   }
 }
 

@@ -65,11 +65,6 @@ class SoilGrid {
     }
     return false;
   }
-  int local_number(const std::array<int, 3>& local) const {
-    int number = 0;
-    for (int k = 0; k < grid_.layout.dim(); ++k) number = kBlockEdge * number + local[k];
-    return number;
-  }
 
  private:
   int neighbours() const { return grid_.layout.dim() == 3 ? 27 : 9; }

@@ -16,12 +16,15 @@ namespace mpm {
 
 enum class Feature {
   absorbing_faces,
+  apic,
   average_dilatation,
   average_stress,
+  body_laws,
   conditions,
   contact_at_nodes,
   contact_at_points,
   cracks,
+  damping,
   divided_bodies,
   free_bodies,
   implicit_steps,
@@ -29,15 +32,20 @@ enum class Feature {
   line,
   loads,
   oblique_biot,
+  particle_damping,
   particle_tools,
   periodic_axes,
   plane_stress,
+  point_particles,
   pore_pressure,
   ranks,
+  rings,
   sleep,
   sleep_damping,
   solid,
   thin_tools,
+  tool_heat,
+  tool_laws,
   transport
 };
 constexpr int kFeatures = static_cast<int>(Feature::transport) + 1;

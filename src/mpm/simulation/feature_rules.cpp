@@ -45,6 +45,26 @@ Found periodic_axis(const SimulationDefinition& d) {
   return face ? Found(face->substr(0, 1)) : face;
 }
 
+bool in_pair(const SimulationDefinition& d, const std::string& tool) {
+  const auto& pairs = d.contact.pairs;
+  return std::any_of(pairs.begin(), pairs.end(), [&](const PairDefinition& pair) { return pair.second == tool; });
+}
+
+/// A body that has a law with another one, for which they have velocity fields of their own.
+Found body_with_law(const SimulationDefinition& d) {
+  for (const PairDefinition& pair : d.contact.pairs) {
+    const auto is_tool = [&](const auto& body) { return body.name == pair.second; };
+    if (std::none_of(d.rigid_bodies.begin(), d.rigid_bodies.end(), is_tool)) return fmt::format("'{}'", pair.first);
+  }
+  return named_in(d.bodies, [&](const DeformableBody& body) { return body.field != d.bodies.front().field; });
+}
+
+/// True for more than one constant friction. A tool that is filled with particles is met as another body is.
+bool has_law(const SimulationDefinition& d, const RigidBodyDefinition& tool) {
+  if (tool.particles) return false;
+  return in_pair(d, tool.name) || tool.friction.static_coefficient >= 0.0 || tool.friction.adhesion != 0.0;
+}
+
 /// Words and key of a feature, and how it is found.
 struct Entry {
   Feature feature;
@@ -59,10 +79,14 @@ using D = const SimulationDefinition&;
 constexpr std::array<Entry, kFeatures> kEntries = {{
     {Feature::absorbing_faces, "absorbing faces", "boundaries",
      [](D d, int) { return wall_of(d, WallKind::absorbing); }},
+    {Feature::apic, "apic", "method.transfer",
+     [](D d, int) { return found_if(d.method.transfer.kind == TransferKind::apic); }},
     {Feature::average_dilatation, "averaged dilatation", "method.average_dilatation",
      [](D d, int) { return found_if(d.method.average_dilatation); }},
     {Feature::average_stress, "averaged stress", "method.average_stress",
      [](D d, int) { return found_if(d.method.average_stress.value_or(false)); }},
+    {Feature::body_laws, "laws of contact between deformable bodies", "contact.pairs",
+     [](D d, int) { return body_with_law(d); }},
     {Feature::conditions, "velocity conditions", "boundaries.conditions",
      [](D d, int) { return found_if(!d.conditions.empty()); }},
     {Feature::contact_at_nodes, "contact at nodes", "contact.method",
@@ -70,6 +94,7 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
     {Feature::contact_at_points, "contact of tools at points", "contact.method",
      [](D d, int) { return found_if(d.contact.method == ContactMethod::points && !d.rigid_bodies.empty()); }},
     {Feature::cracks, "cracks", "cracks", [](D d, int) { return found_if(d.cracks.any()); }},
+    {Feature::damping, "damping", "method.damping", [](D d, int) { return found_if(d.method.damping.any()); }},
     {Feature::divided_bodies, "bodies that a tool divides", "rigid_bodies",
      [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return !body.divides.empty(); }); }},
     {Feature::free_bodies, "free bodies", "rigid_bodies",
@@ -83,14 +108,20 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
      [](D d, int) { return found_if(!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()); }},
     {Feature::oblique_biot, "a Biot coefficient that differs between directions", "transport.pore_pressure",
      [](D d, int) { return oblique_biot(d); }},
+    {Feature::particle_damping, "damping of the particles' velocity", "method.damping",
+     [](D d, int) { return found_if(d.method.damping.in_update()); }},
     {Feature::particle_tools, "rigid bodies made of particles", "rigid_bodies",
      [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.particles; }); }},
     {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, int) { return periodic_axis(d); }},
     {Feature::plane_stress, "plane stress", "geometry",
      [](D d, int) { return found_if(d.geometry == GeometryKind::plane_stress); }},
+    {Feature::point_particles, "particles that are points (dirac)", "method.shape",
+     [](D d, int) { return found_if(d.method.shape == ShapeKind::dirac); }},
     {Feature::pore_pressure, "water in pores", "transport.pore_pressure",
      [](D d, int) { return found_if(d.transport.find(Transported::pore_pressure) != nullptr); }},
     {Feature::ranks, "several processes", "method.update", [](D, int ranks) { return found_if(ranks > 1); }},
+    {Feature::rings, "a ring that opens", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.inner_radius > 0.0; }); }},
     {Feature::sleep, "sleep", "sleep", [](D d, int) { return found_if(d.sleep.has_value()); }},
     {Feature::sleep_damping, "damping of what falls asleep", "sleep.damping",
      [](D d, int) { return found_if(d.sleep && d.sleep->damping > 0.0); }},
@@ -103,6 +134,13 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
          return shared || !body.surface ? body.sides == Sides::two : has_sides(body, d.geometry, d.smallest_cell());
        });
      }},
+    {Feature::tool_heat, "heat that a tool exchanges", "transport.temperature.tools",
+     [](D d, int) {
+       const QuantityDefinition* heat = d.transport.find(Transported::temperature);
+       return heat == nullptr || heat->tools.empty() ? std::nullopt : Found(fmt::format("'{}'", heat->tools[0].body));
+     }},
+    {Feature::tool_laws, "a tool's adhesion, friction at rest or law of its own with a body", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [&](const auto& body) { return has_law(d, body); }); }},
     {Feature::transport, "transport", "transport", [](D d, int) { return found_if(!d.transport.quantities.empty()); }},
 }};
 
@@ -145,6 +183,18 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::cracks, Feature::average_stress, "a cell would join the two sides of a crack", "leave the key out"},
       {Feature::cracks, Feature::contact_at_points, "points do not see on which side of a crack material is",
        "write contact.method: nodes, or leave it out"},
+      {Feature::average_dilatation, Feature::line, "a line has one strain, and nothing in it locks", "leave it out"},
+      {Feature::average_dilatation, Feature::plane_stress, "the thickness follows there, and nothing locks",
+       "leave it out, or use plane_strain"},
+      {Feature::average_stress, Feature::line, "a line has one strain, and nothing in it locks", "leave it out"},
+      {Feature::average_stress, Feature::plane_stress, "the thickness follows there, and nothing locks",
+       "leave it out, or use plane_strain"},
+      {Feature::apic, Feature::point_particles,
+       "apic needs the inverse of sum S (x_i - x_p)(x_i - x_p), which a point on a line of the grid does not have",
+       "use another shape, such as ugimp, or transfer {xpic: 2}"},
+      {Feature::particle_damping, Feature::apic,
+       "apic keeps a part of the motion in a matrix that this damping does not reach",
+       "use {grid: 20 1/s, placement: force}, with feedback of the grid, or transfer flip"},
       {Feature::absorbing_faces, Feature::pore_pressure,
        "the faces absorb the waves of dry material, and those of wet material are faster",
        "make the face slip or fixed, farther away"},
@@ -155,6 +205,13 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::free_bodies, Feature::contact_at_nodes, "contact at nodes does not move a body",
        "leave out contact.method, or write points"},
       {Feature::free_bodies, Feature::particle_tools, "a free body is met at points of the material's surface",
+       "leave out normals: particles"},
+      {Feature::free_bodies, Feature::rings, "a ring that opens is not rigid", "write another shape"},
+      {Feature::tool_laws, Feature::contact_at_nodes, "contact at nodes has one constant friction for a tool",
+       "leave out contact.method, or write points"},
+      {Feature::tool_heat, Feature::contact_at_nodes, "at nodes no area of contact is known",
+       "leave out contact.method, or write points"},
+      {Feature::tool_heat, Feature::particle_tools, "at nodes no area of contact is known",
        "leave out normals: particles"},
       {Feature::line, Feature::implicit_steps, "implicit steps are made for solid, plane_strain and axisymmetric",
        "use method.update: usavg"},
@@ -175,6 +232,9 @@ const std::vector<FeatureRule>& feature_rules() {
        "write sides: one"},
       {Feature::contact_at_nodes, Feature::implicit_steps, "implicit steps meet bodies at points of their surface",
        "leave it out"},
+      {Feature::damping, Feature::implicit_steps, "implicit steps have none", "leave it out"},
+      {Feature::body_laws, Feature::implicit_steps, "with implicit steps bodies move as one where they meet",
+       "leave the pair out, or use method.update: usavg"},
       {Feature::sleep_damping, Feature::implicit_steps, "implicit steps have no such damping", kExplicit},
       {Feature::transport, Feature::implicit_steps, "implicit steps do not have transport yet", kExplicit},
       {Feature::leaving, Feature::implicit_steps, "implicit steps do not let particles leave yet", kExplicit},

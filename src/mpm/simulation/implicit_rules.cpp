@@ -39,7 +39,6 @@ Fault method_part(const SimulationDefinition& d) {
     return MethodFault{"method.gradient_terms",
                        fmt::format("implicit steps have {} terms; leave it out", MethodDefinition().gradient_terms)};
   }
-  if (method.damping.any()) return MethodFault{"method.damping", "implicit steps have none; leave it out"};
   if (method.sweeps && !(*method.sweeps >= 1 && *method.sweeps <= kMostImplicitSweeps)) {
     return MethodFault{"method.sweeps",
                        fmt::format("{} is not possible; write 1 to {}, or leave it out for as many as the pressure "
@@ -74,13 +73,6 @@ Fault material_part(const SimulationDefinition& d) {
     const MaterialDefinition& material = find_material(d, body);
     if (const std::string text = refused_implicit(material); !text.empty()) return MethodFault{"materials", text};
     if (Fault fault = strength_part(d, material)) return fault;
-    if (body.field != d.bodies.front().field) {
-      return MethodFault{
-          "contact.pairs",
-          fmt::format("'{}' has a law of contact with another body; with implicit steps bodies move as one where they "
-                      "meet: leave the pair out, or use method.update: usavg",
-                      body.name)};
-    }
   }
   return {};
 }

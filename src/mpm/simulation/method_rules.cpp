@@ -7,6 +7,7 @@
 
 #include "mpm/kernel/select.hpp"
 #include "mpm/material/law.hpp"
+#include "mpm/simulation/feature_rules.hpp"
 
 namespace mpm {
 namespace {
@@ -50,35 +51,12 @@ Fault transfer_fault(const MethodDefinition& method) {
     case TransferKind::apic:
       break;
   }
-  if (method.shape == ShapeKind::dirac) {
-    return MethodFault{"transfer",
-                       "apic needs the inverse of sum S (x_i - x_p)(x_i - x_p), which dirac does not have for a "
-                       "particle on a line of the grid; use another shape, such as ugimp, or transfer "
-                       "{xpic: 2}"};
-  }
-  return {};
-}
-
-Fault dilatation_fault(const MethodDefinition& method, GeometryKind geometry) {
-  if (!method.average_dilatation) return {};
-  if (geometry == GeometryKind::line) {
-    return MethodFault{"average_dilatation", "a line has one strain, and nothing in it locks; leave it out"};
-  }
-  if (geometry == GeometryKind::plane_stress) {
-    return MethodFault{"average_dilatation",
-                       "in plane stress the thickness follows, and nothing locks; leave it out, or use plane_strain"};
-  }
   return {};
 }
 
 /// True if particles with one stress each may lock.
 bool may_lock(GeometryKind geometry) {
   return geometry != GeometryKind::line && geometry != GeometryKind::plane_stress;
-}
-
-Fault stress_fault(const MethodDefinition& method, GeometryKind geometry) {
-  if (!method.average_stress.value_or(false) || may_lock(geometry)) return {};
-  return MethodFault{"average_stress", "in a line and in plane stress nothing locks; leave it out"};
 }
 
 Fault rate_fault(const char* key, const Function& rate) {
@@ -146,12 +124,19 @@ Fault damping_fault(const MethodDefinition& method) {
                        "a rate that is a function of place is read at the particles, not at the nodes; use placement: "
                        "update"};
   }
-  if (method.transfer.kind == TransferKind::apic && damping.in_update()) {
-    return MethodFault{"damping",
-                       "apic keeps a part of the motion in a matrix that damping of the particles' velocity does not "
-                       "reach; use {grid: 20 1/s, placement: force}, with feedback of the grid, or transfer flip"};
-  }
   return {};
+}
+
+/// Features of the method that do not go together, or not with the geometry.
+Fault pair_fault(const MethodDefinition& method, GeometryKind geometry) {
+  static const std::string kSection = "method.";
+  SimulationDefinition alone;
+  alone.method = method;
+  alone.geometry = geometry;
+  Fault fault = feature_fault(alone);
+  if (!fault || fault->key.rfind(kSection, 0) != 0) return {};
+  fault->key = fault->key.substr(kSection.size());
+  return fault;
 }
 
 }  // namespace
@@ -182,13 +167,12 @@ bool shares_stress(const SimulationDefinition& definition, const DeformableBody&
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {
   if (const Fault fault = shape_fault(method, geometry)) return fault;
   if (const Fault fault = transfer_fault(method)) return fault;
-  if (const Fault fault = dilatation_fault(method, geometry)) return fault;
-  if (const Fault fault = stress_fault(method, geometry)) return fault;
   if (method.gradient_terms < 1 || method.gradient_terms > kMostTerms) {
     return MethodFault{"gradient_terms", fmt::format("{} is not possible; write 1 to {} terms, as 2, the default",
                                                      method.gradient_terms, kMostTerms)};
   }
-  return damping_fault(method);
+  if (const Fault fault = damping_fault(method)) return fault;
+  return pair_fault(method, geometry);
 }
 
 }  // namespace mpm

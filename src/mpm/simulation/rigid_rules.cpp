@@ -23,23 +23,12 @@ std::string radial_fault(const SimulationDefinition& definition, const RigidBody
 
 std::string free_fault(const SimulationDefinition&, const RigidBodyDefinition& body) {
   if (!body.free) return {};
-  if (body.inner_radius > 0.0) return "free: a ring that opens is not rigid; write another shape";
   if (body.free->axes == std::array<bool, 6>{}) return "free: no velocity is free; leave it out";
   if (!body.free->all_free() && body.free->centre != Vec3::Zero()) {
     return "free: the centre of mass is off the body's origin, and a part of its motion is prescribed; put the origin "
            "at the centre of mass, or free all axes";
   }
   return {};
-}
-
-// Contact at nodes knows one constant friction a body.
-std::string law_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  if (definition.contact.method != ContactMethod::nodes || body.particles) return {};
-  const auto& pairs = definition.contact.pairs;
-  const bool named =
-      std::any_of(pairs.begin(), pairs.end(), [&](const PairDefinition& pair) { return pair.second == body.name; });
-  if (!named && body.friction.static_coefficient < 0.0 && body.friction.adhesion == 0.0) return {};
-  return "contact at nodes has no laws of pairs, friction at rest or adhesion; write contact: {method: points}";
 }
 
 // Contact with rigid particles has one law for each velocity field.
@@ -63,7 +52,7 @@ std::string field_fault(const SimulationDefinition& definition, const RigidBodyD
 }  // namespace
 
 std::string rigid_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  for (const auto rule : {divides_fault, radial_fault, free_fault, law_fault, field_fault}) {
+  for (const auto rule : {divides_fault, radial_fault, free_fault, field_fault}) {
     if (std::string fault = rule(definition, body); !fault.empty()) return fault;
   }
   return {};

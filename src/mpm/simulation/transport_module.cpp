@@ -54,12 +54,6 @@ SurfaceHeat* add_surface_heat(TransportedField& temperature, RunParts& parts) {
     if (body == parts.bodies.end()) {
       throw DefinitionError(fmt::format("transport.temperature.tools: no rigid body is called '{}'", tool.body));
     }
-    if (parts.definition.contact.method == ContactMethod::nodes || body->definition().particles) {
-      throw DefinitionError(
-          fmt::format("transport.temperature.tools: '{}' has contact at nodes, where no area of contact is known; take "
-                      "contact.method: points",
-                      tool.body));
-    }
     tools[body - parts.bodies.begin()].definition = tool;
   }
   const std::size_t fields = parts.fields.size();

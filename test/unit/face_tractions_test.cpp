@@ -8,13 +8,14 @@
 #include <map>
 #include <numeric>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/step/sorter.hpp"
 
 namespace mpm {
 namespace face_tractions_test {
 
 constexpr double kCell = 0.1, kHalf = 0.25, kThickness = 0.3, kDt = 1e-3;
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
+constexpr double kTwoPi = 2.0 * mpm::kPi;
 constexpr std::array<DomainFace, 4> kEdges = {{{1, false}, {0, true}, {1, true}, {0, false}}};
 
 using Points = std::vector<std::array<double, 3>>;

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "mpm/math/nanoseconds.hpp"
+
 namespace mpm::pace {
 
 namespace {
@@ -46,7 +48,7 @@ bool StepTimer::after_step() {
 }
 
 std::optional<StepCost> StepTimer::time(Simulation& simulation) {
-  const double end = simulation.definition().time.end / kTimeUnit;
+  const double end = simulation.definition().time.end / kNanosecond;
   timing_ = true;
   steps_ = 0;
   begun_ = clock_();

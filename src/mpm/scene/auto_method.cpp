@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mpm/choice/method_choice.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/expected_motion.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
@@ -19,7 +20,6 @@ using choice::Preference;
 using choice::Standing;
 
 constexpr double kLargeStrain = 0.02;  // as in auto_method.hpp
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTurned = 10.0 * kDegree;
 const char* const kDefault = "ugimp/usavg/flip";
 

@@ -7,6 +7,7 @@
 
 #include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/tool_motion.hpp"
 
@@ -21,7 +22,7 @@ constexpr double kRoundOff = 1e-9;
 void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
   const TimeDefinition& time = scene.definition.time;
   if (!(time.end > 0.0)) return;
-  const double sync = 1e-9 * static_cast<double>(time.sync), periods = time.end / sync;
+  const double sync = seconds_of(time.sync), periods = time.end / sync;
   if (std::abs(periods - std::round(periods)) <= std::max(kRoundOff * periods, 1e-6)) return;
   warnings.push_back(
       fmt::format("the run goes on to {:.12g} s, the first sync point after its end at {:.12g} s: sync points are "

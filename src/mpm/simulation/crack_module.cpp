@@ -3,6 +3,7 @@
 
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/kernel/select.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/transported_field.hpp"
@@ -129,7 +130,7 @@ void add_cracks(RunParts& parts) {
   auto made = std::make_unique<CrackStage::Parts>();
   made->sets = &parts.sets;
   made->masses = parts.make_transfer(definition.method.shape);
-  made->sync = 1e-9 * static_cast<double>(definition.time.sync);
+  made->sync = seconds_of(definition.time.sync);
   for (const CrackDefinition& crack : asked.list) {
     Crack one{
         crack, Chain(crack.points, crack.ends, crack.fixed), {}, crack.faces.law.kind != ContactLaw::Kind::one_field};

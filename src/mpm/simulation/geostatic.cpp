@@ -19,6 +19,7 @@
 #include <optional>
 
 #include "initial.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/simulation/run_parts.hpp"
 #include "particle_start.hpp"
@@ -194,7 +195,7 @@ void Simulation::State::settle() {
   Simulation run(std::move(part), std::move(options));
   State& r = *run.state_;
   const double g = definition.gravity.norm(), lightest = mpm::least_mass(r.sets, ranks.get(), true);
-  const double period = static_cast<double>(definition.time.sync) * 1e-9;
+  const double period = seconds_of(definition.time.sync);
   Unbalanced residual;
   double before = 0.0, moves_for = 0.0;
   std::optional<double> creeps;  // its mean acceleration over g

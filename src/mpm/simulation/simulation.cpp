@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "state.hpp"
 
@@ -191,7 +192,7 @@ ContactReport Simulation::take_contact(int body) {
   const RigidBody& of = state_->bodies.at(body);
   for (ContactReporter* reporter : state_->reporters) {
     ContactLedger* ledger = reporter->ledger_of(of);
-    if (ledger != nullptr) return ledger->read(static_cast<double>(state_->time) * kNanosecond);
+    if (ledger != nullptr) return ledger->read(seconds_of(state_->time));
   }
   throw DefinitionError(fmt::format("rigid body '{}' has no contact with the material", of.name()));
 }
@@ -199,7 +200,7 @@ ContactReport Simulation::take_contact(int body) {
 std::vector<PairReport> Simulation::take_pairs() {
   std::vector<PairReport> reports;
   for (ContactReporter* reporter : state_->reporters) {
-    reporter->read_pairs(static_cast<double>(state_->time) * kNanosecond, reports);
+    reporter->read_pairs(seconds_of(state_->time), reports);
   }
   return reports;
 }

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "mpm/implicit/implicit_step.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -166,8 +167,8 @@ StepLimit Simulation::State::survey_material() const {
 }
 
 StepLimit Simulation::State::step_limit(const StepLimit& before, const StepLimit& now) const {
-  const PeriodAhead period{1e-9 * static_cast<double>(time), 1e-9 * static_cast<double>(definition.time.sync),
-                           definition.time.cfl, layout().smallest_cell()};
+  const PeriodAhead period{seconds_of(time), seconds_of(definition.time.sync), definition.time.cfl,
+                           layout().smallest_cell()};
   StepLimit limit = now;
   // Some material is awake, and its waves set the limit.
   const bool known = now.by != nullptr && before.by != nullptr && definition.method.update != UpdateScheme::implicit;

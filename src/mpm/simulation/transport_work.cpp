@@ -8,6 +8,7 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/layout.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/stages.hpp"
@@ -28,7 +29,7 @@ bool is_used(const MaterialDefinition& material, const std::vector<std::string>&
 
 /// Longest step that mechanics takes at the start [s].
 double longest_step(const SimulationDefinition& d, const std::vector<std::string>& used, double cell) {
-  double dt = 1e-9 * static_cast<double>(d.time.sync);
+  double dt = seconds_of(d.time.sync);
   if (d.time.step) dt = std::min(dt, *d.time.step);
   const QuantityDefinition* pores = d.transport.find(Transported::pore_pressure);
   for (std::size_t m = 0; m < d.materials.size(); ++m) {
@@ -122,7 +123,7 @@ std::string transport_warning(const SimulationDefinition& d, const std::vector<s
     if (own.stages > most.stages) most = own;
   }
   if (most.stages < kManyStages) return {};
-  const double sync = 1e-9 * static_cast<double>(d.time.sync);
+  const double sync = seconds_of(d.time.sync);
   const std::string text =
       fmt::format("{}: a step of {:.3g} s takes {:.3g} stages of it", most.cause, most.step, most.stages);
   if (most.stages <= kMostStages && std::ceil(sync / most.step) * most.stages <= kMostSteps) {

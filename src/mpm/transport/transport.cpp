@@ -9,6 +9,7 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "visits.hpp"
 
 namespace mpm {
@@ -40,7 +41,7 @@ void Transport::prepare_expansion() {
     parts_.sets[s].bring("free_strain_before", "1");
     parts_.sets[s].bring("free_strain_grown", "1");
   }
-  if (expands_) expands_for_ = 1e-9 * static_cast<double>(sync_);  // time for a start that is not free of strain
+  if (expands_) expands_for_ = seconds_of(sync_);  // time for a start that is not free of strain
 }
 
 template <class Term>
@@ -121,7 +122,7 @@ void Transport::forces_gathered(StepContext& context) {
 
 void Transport::grid_advanced(StepContext& context) {
   const double end = context.start + context.dt;
-  const bool last = end + 0.25 * context.dt > 1e-9 * static_cast<double>(sync_end_);
+  const bool last = end + 0.25 * context.dt > seconds_of(sync_end_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     TransportedField& field = *fields_[i];
     waited_[i] += context.dt;

@@ -1,5 +1,7 @@
 #include "mpm_ros/message/quantities.hpp"
 
+#include "mpm/math/nanoseconds.hpp"
+
 // A member by its path: FIELD(mean.force).
 #define FIELD(path)                                        \
   Field {                                                  \
@@ -103,9 +105,8 @@ const std::vector<StateQuantity>& state_quantities() {
   using Q = StateQuantity;
   static const std::vector<Q> list = {
       Q(
-          "time", "s", Over::start,
-          [](const mpm::SolverState& state) { return Value(static_cast<double>(state.time) * 1e-9); }, FIELD(time), "",
-          "simulated"),
+          "time", "s", Over::start, [](const mpm::SolverState& state) { return Value(mpm::seconds_of(state.time)); },
+          FIELD(time), "", "simulated"),
       Q("steps", "1", Over::start, FIELD(step.steps), FIELD(steps), "steps", ""),
       Q("dt", "s", Over::now, FIELD(step.dt_last), FIELD(dt), "dt", "the last time step"),
       Q("dt min", "s", Over::start, FIELD(step.dt_min), FIELD(dt_min), "dt min", ""),

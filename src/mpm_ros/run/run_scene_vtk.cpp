@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm_ros/csv/csv_writer.hpp"
@@ -97,7 +98,7 @@ void VtkSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessag
 void VtkSink::put(const std::string&, const ros::Time&, const Cracks& message) { cracks_ = message; }
 
 void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
-  const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
+  const double time = mpm::seconds_of(stamps_.time_of(stamp));
   const auto origin = origins_.find(message.header.frame_id);
   const bool fine = origin != origins_.end();
   const VtkFile file =

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "mpm/choice/method_choice.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/study/runner.hpp"
 #include "mpm/study/suite.hpp"
@@ -143,12 +144,12 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
     row.particles = simulation.particles();
     const EnergyReport before_run = simulation.state().energy;
     measure->look(simulation);
-    const std::int64_t end = std::llround(1e9 * simulation.definition().time.end);
+    const std::int64_t end = nanoseconds_of(simulation.definition().time.end);
     while (!measure->done() && simulation.time() < end) {
       const double before = processor_time();
       simulation.advance();
       spent += processor_time() - before;
-      simulated = 1e-9 * static_cast<double>(simulation.time());
+      simulated = seconds_of(simulation.time());
       row.steps = simulation.state().step.steps;
       measure->look(simulation);
     }

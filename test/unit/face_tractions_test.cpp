@@ -42,7 +42,7 @@ struct Stand {
     }
     set.v.assign(dim, ParticleScalar(Precision::float64, points.size()));
     set.f.assign(9, ParticleScalar(Precision::float64, points.size()));
-    if (follows_deformation(shape)) {
+    if (traits_of(shape).follows_deformation()) {
       const int components = shape == ShapeKind::ugimp_stretch ? dim : dim * dim;
       set.domain.assign(components, ParticleScalar(Precision::float64, points.size()));
     }
@@ -145,8 +145,8 @@ TEST(FaceTractions, ActOnTheDomainOfTheShapeFunction) {
     const bool stretch = shape == ShapeKind::ugimp_stretch;
     stand.deform(stretch ? std::vector<double>{1.5, 0.8} : std::vector<double>{1.5, 0.0, 0.0, 0.8});
     auto stage = stand.stage({stand.term({0, true}, {Function::parse("1000*x"), Function(), Function()})});
-    const double edge = 2.0 * kHalf * kCell * (follows_deformation(shape) ? 0.8 : 1.0);
-    const double x = 0.52 + kHalf * kCell * (follows_deformation(shape) ? 1.5 : 1.0);
+    const double edge = 2.0 * kHalf * kCell * (traits_of(shape).follows_deformation() ? 0.8 : 1.0);
+    const double x = 0.52 + kHalf * kCell * (traits_of(shape).follows_deformation() ? 1.5 : 1.0);
     EXPECT_NEAR(sum(stand.forces(stage)).x(), 1000.0 * x * edge * kThickness, 1e-13) << shape_name(shape);
   }
 }

@@ -172,7 +172,7 @@ TEST(Traction, TubeUnderPressureIsLames) {
 // an exception (1.1 %): corners of its particles' boxes lie in other cells than the particles, whose nodes move
 // differently.
 TEST(Traction, WorksAndRepeats) {
-  for (std::size_t kind = 0; kind < mpm::kShapeNames.size(); ++kind) {
+  for (std::size_t kind = 0; kind < mpm::kShapeTraits.size(); ++kind) {
     const auto shape = static_cast<ShapeKind>(kind);
     auto d = block(GeometryKind::plane_strain, shape, Vec3::Constant(1.0), {4, 1, 4});
     d.method.damping = 0.0;

@@ -18,6 +18,7 @@
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/tensor.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"

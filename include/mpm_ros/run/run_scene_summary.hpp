@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ranks/make_ranks.hpp"

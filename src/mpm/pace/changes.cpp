@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "mpm/math/dimension.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/method_rules.hpp"
 
 namespace mpm::pace {

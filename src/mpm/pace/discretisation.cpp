@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "mpm/implicit/implicit_step.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 

@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "mpm/math/nanoseconds.hpp"
-
 namespace mpm::pace {
 
 namespace {

@@ -3,8 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
-
 namespace mpm::pace {
 
 namespace {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/pace/step_cost.hpp"
 
 namespace mpm::pace {

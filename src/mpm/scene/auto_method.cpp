@@ -63,7 +63,7 @@ bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const s
   const MethodDefinition& said = definition.method;
   if (measured.precision != Precision::float64) return false;
   if (asked.keep_shape ? measured.shape != said.shape
-                       : measured.shape == ShapeKind::dirac || (flows && measured.shape != ShapeKind::ugimp)) {
+                       : traits_of(measured.shape).point() || (flows && measured.shape != MethodDefinition().shape)) {
     return false;
   }
   // The study's problems are elastic, so a flowing material keeps the transfer that is proven for it.

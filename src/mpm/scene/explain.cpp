@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/shape/ring.hpp"

@@ -8,7 +8,6 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/constants.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/memory.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/terrain.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/simulation.hpp"

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <numeric>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/simulation.hpp"

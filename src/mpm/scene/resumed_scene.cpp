@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 
 namespace mpm {

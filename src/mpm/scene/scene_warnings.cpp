@@ -7,7 +7,6 @@
 
 #include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/tool_motion.hpp"
 
@@ -71,8 +70,7 @@ void look_at_speeds(const Scene& scene, std::vector<std::string>& warnings) {
 /// goes to zero, it grows without bound.
 void look_at_spray(const Scene& scene, std::vector<std::string>& warnings) {
   const MethodDefinition& method = scene.definition.method;
-  const bool spline = method.shape == ShapeKind::bspline2 || method.shape == ShapeKind::bspline3;
-  if (!spline || method.transfer.kind != TransferKind::apic) return;
+  if (!traits_of(method.shape).spline() || method.transfer.kind != TransferKind::apic) return;
   for (const BodyDefinition& body : scene.bodies) {
     if (traits_of(material_of(body, scene)).matter != Matter::liquid) continue;
     warnings.push_back(fmt::format(

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "state.hpp"
 

@@ -19,7 +19,6 @@
 #include <optional>
 
 #include "initial.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/simulation/run_parts.hpp"
 #include "particle_start.hpp"

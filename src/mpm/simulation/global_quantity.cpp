@@ -8,7 +8,6 @@
 #include <iterator>
 #include <tuple>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/shape/ring.hpp"
 #include "shipped_modules.hpp"

@@ -51,7 +51,7 @@ Fault transfer_fault(const MethodDefinition& method) {
     case TransferKind::apic:
       break;
   }
-  if (method.shape == ShapeKind::dirac) {
+  if (traits_of(method.shape).point()) {
     return MethodFault{"transfer",
                        "apic needs the inverse of sum S (x_i - x_p)(x_i - x_p), which dirac does not have for a "
                        "particle on a line of the grid; use another shape, such as ugimp, or transfer "

@@ -9,7 +9,6 @@
 #include <limits>
 #include <numeric>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/nearest.hpp"
 #include "state.hpp"
 

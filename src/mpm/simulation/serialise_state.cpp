@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "state.hpp"
 #include "state_hash.hpp"

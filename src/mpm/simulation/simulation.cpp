@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "state.hpp"
 
@@ -34,13 +33,13 @@ std::string tool_at(const std::vector<RigidBody>& bodies, const Vec3& point, dou
 
 /// Advice on what to change first if the method is one that is known to fail (doc/methods.md, doc/contact.md).
 std::string known_to_fail(const SimulationDefinition& definition) {
-  const ShapeKind shape = definition.method.shape;
+  const ShapeTraits& shape = traits_of(definition.method.shape);
   std::string text;
-  if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) {
+  if (shape.shears()) {
     text += fmt::format(
         "take method.shape: ugimp where material is sheared far, since the corners of {}'s domains run "
         "apart there; or ",
-        shape_name(shape));
+        shape.name);
   }
   if (definition.contact.normals.method == NormalMethod::own) {
     text += "take contact.normals: average, since 'own' keeps neither momentum nor energy; or ";

@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "mpm/implicit/implicit_step.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -107,7 +106,7 @@ double largest_shear(const ParticleSet& set, const GridLayout& layout, int threa
 
 /// Largest shear of a set's domains where it shortens steps, else 0.
 double shear_of(const SimulationDefinition& definition, const ParticleSet& set, const GridLayout& layout, int threads) {
-  if (definition.method.shape != ShapeKind::cpdi || layout.dim() == 1 || set.awake() == 0) return 0.0;
+  if (!traits_of(definition.method.shape).shear_limits_step || layout.dim() == 1 || set.awake() == 0) return 0.0;
   return layout.dim() == 2 ? largest_shear<2>(set, layout, threads) : largest_shear<3>(set, layout, threads);
 }
 
@@ -151,7 +150,7 @@ StepLimit Simulation::State::survey_material() const {
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     double shear = shear_of(definition, sets[s], layout(), threads);
-    if (over && definition.method.shape == ShapeKind::cpdi) over->ranks().largest(&shear, 1);
+    if (over && traits_of(definition.method.shape).shear_limits_step) over->ranks().largest(&shear, 1);
     if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;

@@ -8,7 +8,6 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/geometry_kind.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/layout.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/stages.hpp"
@@ -69,7 +68,7 @@ TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& q
                       const std::vector<std::string>& used, double cell, double dt) {
   TransportWork work;
   work.step = dt;
-  work.quantity = kQuantityNames[static_cast<std::size_t>(quantity.quantity)];
+  work.quantity = traits_of(quantity.quantity).name;
   double capacity = std::numeric_limits<double>::infinity();
   std::string conductor;
   for (std::size_t m = 0; m < std::min(d.materials.size(), quantity.materials.size()); ++m) {
@@ -94,7 +93,7 @@ TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& q
   double longest = longest_update(cell, capacity, conductance);
   const double stable = stable_step(cell, work.diffusivity);
   bool by_surface = longest < stable;
-  if (d.method.shape == ShapeKind::dirac && kOfPoints * stable < longest) {
+  if (traits_of(d.method.shape).point() && kOfPoints * stable < longest) {
     longest = kOfPoints * stable;
     by_surface = false;
   }

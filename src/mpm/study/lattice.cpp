@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "mpm/math/nanoseconds.hpp"
-
 namespace mpm::study {
 
 SimulationDefinition empty_definition(const std::string& name, GeometryKind geometry, const MethodDefinition& method,

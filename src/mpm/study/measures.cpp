@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/math/nanoseconds.hpp"
-
 namespace mpm::study {
 namespace {
 

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/problems.hpp"
 

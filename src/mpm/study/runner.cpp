@@ -7,7 +7,6 @@
 #include <ctime>
 #include <optional>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/study/counted_work.hpp"
 
 namespace mpm::study {

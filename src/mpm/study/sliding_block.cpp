@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/problems.hpp"
 

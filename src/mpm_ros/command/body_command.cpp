@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/projected.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"

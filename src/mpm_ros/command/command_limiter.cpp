@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/projected.hpp"
 
 namespace mpm_ros {

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"

@@ -105,7 +105,8 @@ void fit_grid(YAML::Node display, const View& view) {
 }  // namespace
 
 bool is_transported(const std::string& field) {
-  return std::find(mpm::kQuantityNames.begin(), mpm::kQuantityNames.end(), field) != mpm::kQuantityNames.end();
+  return std::any_of(std::begin(mpm::kTransported), std::end(mpm::kTransported),
+                     [&](const mpm::TransportedTraits& of) { return of.name == field; });
 }
 
 double View::radius() const { return distance / kDistance; }

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
-
 namespace mpm_ros {
 
 namespace {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/simulator_node.hpp"

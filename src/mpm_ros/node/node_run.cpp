@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/math/json_text.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/run_files.hpp"
 

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 #include "mpm_ros/node/start_line.hpp"
 #include "mpm_ros/run/budget_watch.hpp"

@@ -8,7 +8,6 @@
 #include <new>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 

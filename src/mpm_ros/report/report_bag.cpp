@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "mpm/math/input_file.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/bag_damage.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/local_frame.hpp"

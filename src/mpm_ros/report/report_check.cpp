@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"

@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/pace/forecast.hpp"
 #include "mpm/pace/kept_costs.hpp"
 #include "mpm/pace/target.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <new>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/pace/kept_costs.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/threads.hpp"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 

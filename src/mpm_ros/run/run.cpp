@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "mpm/implicit/sweep_momentum.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/resumed_scene.hpp"
 #include "mpm_ros/run/expected_pace.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "mpm/math/build_info.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "mpm/math/json_text.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/rank_failure.hpp"

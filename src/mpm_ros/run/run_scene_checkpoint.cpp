@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "mpm/math/json_text.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/scene/resumed_scene.hpp"

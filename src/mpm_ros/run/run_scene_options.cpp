@@ -9,7 +9,6 @@
 #include <fstream>
 #include <utility>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/scene/units.hpp"

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "mpm/math/nanoseconds.hpp"
-
 namespace mpm::study::tool_force {
 namespace {
 

@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "mpm/choice/method_choice.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/study/runner.hpp"
 #include "mpm/study/suite.hpp"

@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/study/tool_force/motion_measure.hpp"
 
 namespace mpm::study::tool_force {

@@ -3,7 +3,6 @@
 
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/kernel/select.hpp"
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/transported_field.hpp"
@@ -98,6 +97,7 @@ std::vector<CrackTipReport> Simulation::crack_tips() const {
     const Vec2 place = crack.chain.points()[crack.chain.point_at(tip.end)].place;
     const Vec2 direction = crack.chain.direction(tip.end);
     CrackTipReport report;
+    static_cast<TipNumbers&>(report) = tip;
     report.crack = crack.definition.name;
     report.end = tip.end == 0 ? "start" : "end";
     report.place = Vec3(place[0], 0.0, place[1]);
@@ -105,16 +105,6 @@ std::vector<CrackTipReport> Simulation::crack_tips() const {
     report.state = tip.looked ? describe(tip.status) : "not looked at yet";
     report.growth = tip.why;
     if (tip.material >= 0) report.material = state_->definition.materials[tip.material].name;
-    report.j = tip.j;
-    report.zone = tip.zone;
-    report.k_one = tip.k.one;
-    report.k_two = tip.k.two;
-    report.opening = tip.opening.normal;
-    report.slip = tip.opening.shear;
-    report.grown = tip.grown;
-    report.speed = tip.speed;
-    report.angle = tip.angle;
-    report.growths = tip.growths;
     report.has_j = !tip.looked || tip.status == ContourStatus::complete;
     report.stopped = stage->tip_stopped(tip);
     reports.push_back(std::move(report));

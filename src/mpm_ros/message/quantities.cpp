@@ -89,6 +89,23 @@ const std::vector<PairQuantity>& pair_quantities() {
   return list;
 }
 
+const std::vector<TipQuantity>& tip_quantities() {
+  using Q = TipQuantity;
+  static const std::vector<Q> list = {
+      Q("j", "J/m^2", Over::now, FIELD(j), FIELD(j), "j",
+        "energy release, without the work of tractions behind the tip"),
+      Q("zone", "J/m^2", Over::now, FIELD(zone), FIELD(zone), "zone", "that work, to the end of the contour"),
+      Q("k_one", "Pa m^0.5", Over::now, FIELD(k.one), FIELD(k_one), "k_one", "stress intensity of opening"),
+      Q("k_two", "Pa m^0.5", Over::now, FIELD(k.two), FIELD(k_two), "k_two", "stress intensity of shear"),
+      Q("opening", "m", Over::now, FIELD(opening), FIELD(opening), "opening", "of the faces next to the tip"),
+      Q("slip", "m", Over::now, FIELD(slip), FIELD(slip), "slip", "of the left face against the right one there"),
+      Q("grown", "m", Over::start, FIELD(grown), FIELD(grown), "grown", ""),
+      Q("speed", "m/s", Over::now, FIELD(speed), FIELD(speed), "speed", "of the last growth"),
+      Q("angle", "rad", Over::now, FIELD(angle), FIELD(angle), "angle", "by which the last growth turned"),
+      Q("growths", "1", Over::start, FIELD(growths), FIELD(growths), "growths", "")};
+  return list;
+}
+
 namespace {
 
 /// An energy by the name that the solver's modules give it.

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 
-#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm_ros/csv/csv_writer.hpp"
@@ -161,12 +160,5 @@ void VtkSink::list(const std::string& stem, const std::string& name, int part, d
                        xml_text(stem), xml_text(name))
         << kListEnd << std::flush;
 }
-
-// Not wanted.
-void VtkSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const ContactForces&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const SolverState&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const Command&) {}
 
 }  // namespace mpm_ros

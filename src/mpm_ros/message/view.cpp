@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/transport/definition.hpp"
 
 namespace mpm_ros {
@@ -138,7 +139,7 @@ View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field, co
   if (view.planar) seen.min.y() = seen.max.y() = box.min.y();
   view.focus = seen.center();
   view.distance = kDistance * std::max(0.5 * seen.size().norm(), 1e-3);
-  view.yaw = view.planar ? 1.5 * M_PI : 4.5;
+  view.yaw = view.planar ? 1.5 * mpm::kPi : 4.5;
   view.pitch = view.planar ? 0.0 : 0.6;
   view.floor = box.min.z();
   view.particle_size = spacing_of(points);

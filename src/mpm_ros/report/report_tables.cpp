@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
@@ -13,7 +14,7 @@
 namespace mpm_ros {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / mpm::kPi;
 
 std::string run_table(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;

@@ -25,14 +25,6 @@ class CommandKeeper : public MessageSink {
  public:
   bool wants(const std::string& topic) const override { return topic == "commands"; }
   void put(const std::string&, const ros::Time&, const Command& message) override { commands.push_back(message); }
-  void put(const std::string&, const ros::Time&, const RunInfo&) override {}
-  void put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray&) override {}
-  void put(const std::string&, const ros::Time&, const ContactForces&) override {}
-  void put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) override {}
-  void put(const std::string&, const ros::Time&, const BodyStates&) override {}
-  void put(const std::string&, const ros::Time&, const SolverState&) override {}
-  void put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) override {}
-  void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) override {}
 
   std::vector<Command> commands;
 };

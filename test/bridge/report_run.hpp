@@ -16,9 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm_ros::test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 /// A tool that moves along x and turns about y under a half sine of force along x, F = A sin(pi t / T).
 struct HalfSineRun {

@@ -6,10 +6,12 @@
 
 #include <complex>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm_ros {
 namespace wrench_filter_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kPeriod = 1e-3, kCutoff = 20.0;
 
 /// Response to a sine of that frequency [Hz] after the initial transient: the filtered signal is the real part of the

@@ -17,8 +17,8 @@ struct Method {
 /// Every shape function, with USAVG and FLIP unless said otherwise.
 inline std::vector<Method> shapes(mpm::UpdateScheme update = mpm::UpdateScheme::usavg) {
   std::vector<Method> list;
-  for (std::size_t i = 0; i < mpm::kShapeNames.size(); ++i) {
-    Method method{mpm::kShapeNames[i], {}};
+  for (std::size_t i = 0; i < mpm::kShapeTraits.size(); ++i) {
+    Method method{mpm::kShapeTraits[i].name, {}};
     method.definition.shape = static_cast<mpm::ShapeKind>(i);
     method.definition.update = update;
     list.push_back(method);

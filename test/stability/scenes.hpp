@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace stability {
@@ -15,7 +16,7 @@ namespace stability {
 using mpm::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kCell = 0.1;         ///< [m]
 constexpr double kDensity = 1000.0;   ///< [kg/m^3]
 constexpr double kWaveSpeed = 100.0;  ///< speed of pressure waves, unless a scene has another [m/s]

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/exponential.hpp"
 
 namespace drucker_prager_test {
@@ -16,7 +17,7 @@ using mpm::DruckerPrager;
 using mpm::DruckerPragerDefinition;
 using mpm::Matrix3;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+using mpm::kDegree;
 
 // One element: Cauchy stress and volume ratio under increments of strain along x, y, z and shear xz.
 struct Element {

@@ -8,13 +8,14 @@
 #include <map>
 #include <numeric>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/step/sorter.hpp"
 
 namespace mpm {
 namespace face_tractions_test {
 
 constexpr double kCell = 0.1, kHalf = 0.25, kThickness = 0.3, kDt = 1e-3;
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
+constexpr double kTwoPi = 2.0 * mpm::kPi;
 constexpr std::array<DomainFace, 4> kEdges = {{{1, false}, {0, true}, {1, true}, {0, false}}};
 
 using Points = std::vector<std::array<double, 3>>;
@@ -41,7 +42,7 @@ struct Stand {
     }
     set.v.assign(dim, ParticleScalar(Precision::float64, points.size()));
     set.f.assign(9, ParticleScalar(Precision::float64, points.size()));
-    if (follows_deformation(shape)) {
+    if (traits_of(shape).follows_deformation()) {
       const int components = shape == ShapeKind::ugimp_stretch ? dim : dim * dim;
       set.domain.assign(components, ParticleScalar(Precision::float64, points.size()));
     }
@@ -144,8 +145,8 @@ TEST(FaceTractions, ActOnTheDomainOfTheShapeFunction) {
     const bool stretch = shape == ShapeKind::ugimp_stretch;
     stand.deform(stretch ? std::vector<double>{1.5, 0.8} : std::vector<double>{1.5, 0.0, 0.0, 0.8});
     auto stage = stand.stage({stand.term({0, true}, {Function::parse("1000*x"), Function(), Function()})});
-    const double edge = 2.0 * kHalf * kCell * (follows_deformation(shape) ? 0.8 : 1.0);
-    const double x = 0.52 + kHalf * kCell * (follows_deformation(shape) ? 1.5 : 1.0);
+    const double edge = 2.0 * kHalf * kCell * (traits_of(shape).follows_deformation() ? 0.8 : 1.0);
+    const double x = 0.52 + kHalf * kCell * (traits_of(shape).follows_deformation() ? 1.5 : 1.0);
     EXPECT_NEAR(sum(stand.forces(stage)).x(), 1000.0 * x * edge * kThickness, 1e-13) << shape_name(shape);
   }
 }

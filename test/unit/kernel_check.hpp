@@ -231,7 +231,7 @@ class Kernels : KernelComparison<Geometry, T> {
   }
   // Does the work of the first pass of a step.
   void note_domains() {
-    if (follows_deformation(scene_.shape)) scene_.mechanics->scatter_momentum(context_);
+    if (traits_of(scene_.shape).follows_deformation()) scene_.mechanics->scatter_momentum(context_);
   }
 
   void check_move(mpm_kernel::Motion motion, Damping damping, bool regather) {

@@ -44,7 +44,7 @@ class KernelComparison {
   // With boxes and domains of half their initial size weights change twice as fast. Those of rings have a term over r
   // in addition, of the same size a tenth of a cell from the axis: twice the rounding.
   double tolerance() const {
-    return (follows_deformation(scene_.shape) ? 2.0 : 1.0) * (Geometry::kHoop ? 2.0 : 1.0) * kTolerance<T>;
+    return (traits_of(scene_.shape).follows_deformation() ? 2.0 : 1.0) * (Geometry::kHoop ? 2.0 : 1.0) * kTolerance<T>;
   }
   bool average() const { return scene_.settings.average_dilatation; }
   bool affine() const { return scene_.settings.transfer.kind == TransferKind::apic; }

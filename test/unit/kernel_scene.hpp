@@ -267,7 +267,7 @@ struct KernelScene {
   Particle worked(const paths::Specimen& specimen, const Law& law) {
     Particle particle;
     const double size = specimen.strain * std::pow(10.0, uniform(1.0) - 0.7);
-    if (follows_deformation(shape)) particle.f = stretched();
+    if (traits_of(shape).follows_deformation()) particle.f = stretched();
     for (int n = 0; n < 8; ++n) {
       const Matrix3<double> m = paths::random_gradient(random, size);
       const double all[3][3] = {{m.xx, m.xy, m.xz}, {m.yx, m.yy, m.yz}, {m.zx, m.zy, m.zz}};
@@ -338,7 +338,7 @@ struct KernelScene {
   // Distance by which a particle may leave its block before its domain leaves the block's tile [cells].
   std::array<double, 3> room_of(ParticleSet& set, int p) {
     std::array<double, 3> room{9.0, 9.0, 9.0};
-    if (!follows_deformation(shape) || shape == ShapeKind::ugimp_stretch) return room;
+    if (!traits_of(shape).follows_deformation() || shape == ShapeKind::ugimp_stretch) return room;
     Particle particle;
     particle.f = Geometry::load_matrix(set.f, p);
     Reference<Geometry>::note_domain(particle);

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "mpm/material/definition.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace mpm {
 namespace material_definition_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+using mpm::kDegree;
 
 MaterialDefinition soil() {
   DruckerPragerDefinition law;

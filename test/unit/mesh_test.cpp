@@ -9,13 +9,14 @@
 #include <string>
 
 #include "mesh_shapes.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/mesh_topology.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
 namespace mesh_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 /// L-shaped prism: the square [0, 2] x [0, 2] without (1, 2] x (1, 2], from y = 0 to 1; reentrant edge at x = z = 1.
 TriangleMesh ell_mesh() {

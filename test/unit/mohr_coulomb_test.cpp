@@ -14,12 +14,13 @@
 
 #include "material_paths.hpp"
 #include "mpm/material/path_driver.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/math/exponential.hpp"
 
 namespace mpm {
 namespace mohr_coulomb_test {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+using mpm::kDegree;
 using Region = MohrCoulomb::Region;
 using Stresses = std::array<double, 3>;
 
@@ -293,7 +294,7 @@ TEST(MohrCoulomb, TurnsWithTheMaterial) {
   for (int n = 0; n < 100; ++n) element.advance(law, {1e-4, 0.0, 0.0, -3e-4, 0.0});
   const PlaneElement before = element;
   EXPECT_GT(before.h[MohrCoulomb::kPlasticStrain], 1e-3);
-  const double w = 2.0 * std::tan(3.14159265358979323846 / 400.0);
+  const double w = 2.0 * std::tan(mpm::kPi / 400.0);
   const double volume = determinant(element.f);
   for (int n = 0; n < 100; ++n) element.advance(law, {0.0, w, -w, 0.0, 0.0});
   const double round_off = 1e-11 * 10e6 / 1600.0;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm {
 namespace motion_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 /// Angle between two orientations [rad]; from the chord of the quaternions, which is precise near zero.
 double angle_between(const Quat& a, const Quat& b) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh_shapes.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace mpm {
 namespace near_triangles_test {
@@ -94,7 +95,7 @@ TEST(NearTriangles, WhereACellHasTooMany) {
   TriangleMesh ring;
   constexpr int kSides = 300;
   for (int i = 0; i < kSides; ++i) {
-    const double angle = 2.0 * 3.14159265358979323846 * i / kSides;
+    const double angle = 2.0 * mpm::kPi * i / kSides;
     ring.vertices.emplace_back(std::cos(angle), std::sin(angle), -0.5);
     ring.vertices.emplace_back(std::cos(angle), std::sin(angle), 0.5);
     const int next = (i + 1) % kSides;

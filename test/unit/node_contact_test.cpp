@@ -8,11 +8,12 @@
 #include <random>
 
 #include "mpm/contact/pair_detection.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace mpm {
 namespace node_contact_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 NodeMaterial material(double mass, const Vec3& velocity, double volume = 1.0, const Vec3& gradient = Vec3::Zero()) {
   NodeMaterial m;

@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm {
 namespace path_driver_test {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+using mpm::kDegree;
 const Elasticity kElasticity{10e6, 0.3};
 constexpr int kXx = 0, kYy = 1, kZz = 2, kXz = 4;
 

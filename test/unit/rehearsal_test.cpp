@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/pace/forecast.hpp"
 #include "mpm/scene/coarser_scene.hpp"
 
@@ -35,7 +36,7 @@ Rehearsal outcome(const Scene& scene) {
   Rehearsal sums;
   sums.awake = 0.0;
   int periods = 0;
-  for (; static_cast<double>(run.time()) * kTimeUnit < scene.definition.time.end; ++periods) {
+  for (; seconds_of(run.time()) < scene.definition.time.end; ++periods) {
     run.advance();
     sums.awake += part_awake(run);
     sums.touched += touches(run) ? 1.0 : 0.0;

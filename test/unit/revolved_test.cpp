@@ -8,13 +8,14 @@
 #include <random>
 #include <string>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/mesh_topology.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
 namespace revolved_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kRounding = 1e-15;  // a few operations on lengths of order 1, 2e-16 each
 
 /// A profile with a hollow in its side and one in its top, counter-clockwise.

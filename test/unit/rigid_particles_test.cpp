@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 
@@ -198,7 +199,7 @@ TEST(RigidParticleContact, BearsTheWeight) {
 // the block slides with g (sin - 0.3 cos), with 0.6 > tan 30 it sticks and friction carries g sin. The reference
 // expects 1 to 2 %.
 TEST(RigidParticleContact, SlidesAndSticks) {
-  constexpr double kGravity = 10.0, kAngle = 30.0 * 3.14159265358979323846 / 180.0;
+  constexpr double kGravity = 10.0, kAngle = 30.0 * mpm::kPi / 180.0;
   for (const double friction : {0.3, 0.6}) {
     const std::string text = fmt::format(
         "geometry: plane_strain\ngrid: {{cell: 0.05, min: [0, 0], max: [3, 1]}}\n"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 
@@ -169,7 +170,7 @@ TEST(SceneMaterials, SoilWhoseDilationEndsAtARise) {
 // sin / (3 - sin), must lie below sqrt(3)/2, where flow dilates by 90 degrees.
 TEST(SceneMaterials, SoilWithoutALimitInAPlaneIsRefused) {
   const auto sand = [](double friction, double dilation, ConeMatch match) {
-    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    using mpm::kDegree;
     return MaterialDefinition{
         "sand", 1600.0, DruckerPragerDefinition{{1e6, 0.3}, friction * kDegree, dilation * kDegree, 0.0, -1.0, match}};
   };

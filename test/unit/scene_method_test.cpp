@@ -85,8 +85,9 @@ TEST(SceneMethod, FlipIsMixedWithXpic) {
 }
 
 TEST(SceneMethod, EveryShapeAndItsOtherName) {
-  for (std::size_t i = 0; i < kShapeNames.size(); ++i) {
-    EXPECT_EQ(method_of(std::string("shape: ") + kShapeNames[i]).shape, static_cast<ShapeKind>(i)) << kShapeNames[i];
+  for (std::size_t i = 0; i < kShapeTraits.size(); ++i) {
+    EXPECT_EQ(method_of(std::string("shape: ") + kShapeTraits[i].name).shape, static_cast<ShapeKind>(i))
+        << kShapeTraits[i].name;
   }
   EXPECT_EQ(method_of("shape: classic").shape, ShapeKind::dirac);
   EXPECT_EQ(method_of("shape: lcpdi").shape, ShapeKind::cpdi);

@@ -12,6 +12,7 @@
 #include "kernel_stencil.hpp"
 #include "kernel_tables.hpp"
 #include "mpm/boundary/axis.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/step/schedule.hpp"
 
@@ -234,7 +235,7 @@ class StepScene {
       set.masses.assign(1, ParticleScalar(set.precision, size));
       for (std::size_t p = 0; p < size; ++p) {
         set.f[4].set(p, 1.0);
-        set.masses[0].set(p, set.mass * 2.0 * 3.14159265358979323846 * at[p][0]);
+        set.masses[0].set(p, set.mass * 2.0 * mpm::kPi * at[p][0]);
       }
     }
     prepare(set, method_.shape, method_.transfer);

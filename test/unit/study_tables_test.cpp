@@ -161,7 +161,7 @@ TEST(StudyMethods, HaveNamesOfTheirOwn) {
     transfers.insert(transfer_label(choice.method.transfer));
   }
   EXPECT_EQ(labels.size(), all.size());
-  EXPECT_EQ(shapes.size(), kShapeNames.size());
+  EXPECT_EQ(shapes.size(), kShapeTraits.size());
   EXPECT_EQ(transfers,
             (std::set<std::string>{"flip", "flip0.99", "pic", "xpic2", "xpic3", "fmpm2", "fmpm3", "fmpm5", "apic"}));
   for (const MethodChoice& choice : main_methods()) EXPECT_TRUE(labels.count(choice.label));

@@ -10,10 +10,12 @@
 #include <random>
 #include <string>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm {
 namespace surface_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A surface with independent knowledge of it: whether a point is inside, and points of the surface such that one lies

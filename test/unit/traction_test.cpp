@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "mpm/math/constants.hpp"
 #include "shape_check.hpp"
 
 namespace mpm {
@@ -14,7 +15,7 @@ namespace traction_test {
 
 using test::table_rows;
 
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
+constexpr double kTwoPi = 2.0 * mpm::kPi;
 constexpr double kTolerance = 1e-12;  // as method reference 13 suggests; values are of order 1 to 50
 
 // The papers' edges 1, 2, 3, 4.

@@ -182,7 +182,7 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
   using mpm::TransferKind;
   const mpm::MaterialDefinition material = mpm::paths::zoo()[2].material;
   for (const mpm::GeometryKind geometry : {mpm::GeometryKind::plane_strain, mpm::GeometryKind::axisymmetric}) {
-    for (std::size_t shape = 0; shape < mpm::kShapeNames.size(); ++shape) {
+    for (std::size_t shape = 0; shape < mpm::kShapeTraits.size(); ++shape) {
       for (std::size_t update = 0; update < mpm::kUpdateNames.size(); ++update) {
         for (const TransferKind kind :
              {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic}) {
@@ -194,8 +194,8 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
           if (mpm::method_fault(method, geometry)) continue;
           EXPECT_EQ(allocations_of_a_period(4, material, method, mpm::best_isa(), geometry),
                     allocations_of_a_period(16, material, method, mpm::best_isa(), geometry))
-              << mpm::geometry_name(geometry) << ", " << mpm::kShapeNames[shape] << ", " << mpm::kUpdateNames[update]
-              << ", " << mpm::kTransferNames[static_cast<int>(kind)];
+              << mpm::geometry_name(geometry) << ", " << mpm::kShapeTraits[shape].name << ", "
+              << mpm::kUpdateNames[update] << ", " << mpm::kTransferNames[static_cast<int>(kind)];
         }
       }
     }

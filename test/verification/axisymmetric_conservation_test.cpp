@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
@@ -14,7 +15,7 @@
 namespace mpm {
 namespace axisymmetric_conservation_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kCell = 0.1, kDensity = 1000.0, kYoung = 1e6;  ///< [m], [kg/m^3], [Pa]
 constexpr TransferKind kTransfers[] = {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic};
 

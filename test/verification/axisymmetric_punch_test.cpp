@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "layer_contact.hpp"
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace axisymmetric_punch_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr int kThreads = 1;  // tests run side by side
 // Numbers of the scene.
 constexpr double kSide = 0.3;    // height and radius of the block [m]

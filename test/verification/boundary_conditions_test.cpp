@@ -5,11 +5,12 @@
 #include <fmt/core.h>
 
 #include "boundary_run.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace verification {
 namespace boundary_conditions_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kSpeed = 100.0, kDensity = 100.0, kArea = 4e-4;  // bar [m/s], [kg/m^3], [m^2]
 
 /// A bar of 1 m in 100 cells, linear elastic, c = 100 m/s.

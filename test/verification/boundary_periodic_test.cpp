@@ -4,11 +4,12 @@
 
 #include "boundary_run.hpp"
 #include "mpm/grid/nodal_fields.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace verification {
 namespace boundary_periodic_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 /// A domain of 16 by 8 cells of 0.05 m, full of material. `drift`: velocity along x [m/s]; `phase`: shift of the wave
 /// along x [m].

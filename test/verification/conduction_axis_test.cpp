@@ -5,13 +5,14 @@
 // + (T2 - T1) ln(r/a) / ln(b/a). Source: exact-solutions 21; Carslaw and Jaeger (1959), 7.6 and 7.2.
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
 
 namespace verification {
 namespace conduction_axis_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kRadius = 0.1, kDiffusivity = 1e-4, kEnd = 10.0;  // numbers of conduction_cylinder: D t / R^2 = 0.1
 
 double series(double r) {

@@ -5,13 +5,14 @@
 // divergence. Source: the heat equation (Carslaw and Jaeger (1959), 1.20).
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
 
 namespace verification {
 namespace conduction_direction_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kAlong = 5.0, kAcross = 1.0;  // conductivity over density and heat capacity [m^2/s]
 constexpr double kEnd = 0.02;
 

@@ -6,13 +6,14 @@
 // Conduction of Heat in Solids, 3.3.
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
 
 namespace verification {
 namespace conduction_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kLength = 0.1, kDiffusivity = 1e-4;  // numbers of conduction_slab [m], [m^2/s]
 constexpr double kEnd = 0.05 * kLength * kLength / kDiffusivity;
 

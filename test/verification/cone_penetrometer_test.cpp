@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/limit_loads.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
@@ -19,7 +20,7 @@
 namespace verification {
 namespace cone_penetrometer_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 // Numbers of the scene.
 constexpr double kRadius = 0.01784, kFriction = 34.0 * kPi / 180.0, kUnitWeight = 1417.0 * 9.81;  // [m], [], [N/m^3]
 constexpr double kSurface = 0.44;                                                                 // [m]

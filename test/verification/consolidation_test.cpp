@@ -16,13 +16,14 @@
 // Loads rise over a short while: solutions are summed over the steps of the load (Duhamel). Cost: 8 s.
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
 
 namespace verification {
 namespace consolidation_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 /// Response to a load that rises as (1 - cos)/2 over `rise` seconds, from the response to a sudden one.
 template <class Response>

@@ -12,13 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/mesh_topology.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace contact_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGravity = 9.81;  // [m/s^2]
 // Round-off, over the momentum exchanged.

@@ -5,13 +5,14 @@
 // two runs, with tips 1 mm shorter and longer. Of the term of the area in J_z, crack reference 4.6.
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace crack_about_axis_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 const char* const kScene = R"yaml(
 name: crack_about_axis

@@ -12,13 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace crack_case {
 
-constexpr double kHalfTurn = 3.14159265358979323846;
+constexpr double kHalfTurn = mpm::kPi;
 constexpr double kDegree = kHalfTurn / 180.0;
 constexpr double kYoung = 2500e6, kPoisson = 0.33;             // crack reference 7 [Pa]
 constexpr double kPlane = kYoung / (1 - kPoisson * kPoisson);  // E' [Pa]

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "layer_contact.hpp"
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
@@ -23,7 +24,7 @@ constexpr double kDepth = 2e-4;  // [m]
 constexpr double kRest = 0.14;   // after the ramp of 0.1 s vibration has decayed to 1e-3 of the force [s]
 constexpr double kEnd = 0.16;    // [s]
 constexpr int kThreads = 1;      // tests run side by side
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 const ElasticBlock kBlock{1e6, 0.3, kSide, kSide};
 // Relative tolerance of the force with eight cells to a radius.
 constexpr double kAsked = 0.05;

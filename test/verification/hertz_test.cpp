@@ -17,13 +17,14 @@
 #include <vector>
 
 #include "hertz_curve.hpp"
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace hertz_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr int kThreads = 1;  // tests run side by side
 // Numbers of the scenes.
 constexpr double kSide = 0.2;        // height of the block and distance from its middle to the walls [m]

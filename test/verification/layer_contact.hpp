@@ -22,6 +22,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/math/constants.hpp"
+
 namespace verification {
 
 enum class ToolShape { circular, strip };  ///< round about z, or endless along y in plane strain
@@ -76,7 +78,7 @@ class LayerContact {
   }
 
  private:
-  static constexpr double kPi = 3.14159265358979323846;
+  static using mpm::kPi;
   static constexpr double kLast = 150.0;  ///< largest k a that is summed; the remainder is estimated by its mean
 
   PressedTool pressed(const Eigen::VectorXd& coefficients, double approach) const {

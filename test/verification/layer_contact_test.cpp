@@ -5,10 +5,12 @@
 
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
+
 namespace verification {
 namespace layer_contact_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 // The sum over wave numbers ends at 150 / radius; its remainder is estimated by a mean, with an error of about 1e-5.
 constexpr double kEndOfSum = 1e-4;
 

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace line_bar_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kLength = 1.0, kSpeed = 100.0;  // numbers of vibrating_line.yaml [m], [m/s]
 constexpr double kPeriod = 4.0 * kLength / kSpeed;
 

@@ -8,13 +8,14 @@
 
 #include <algorithm>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace manufactured_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kAmplitude = 0.001;  // amplitude in the scenes [m]
 
 struct Error {

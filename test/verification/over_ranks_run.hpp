@@ -92,7 +92,7 @@ inline Outcome outcome_of(mpm::Simulation& simulation) {
   for (const auto kind :
        {mpm::Transported::temperature, mpm::Transported::concentration, mpm::Transported::pore_pressure}) {
     if (definition.transport.find(kind) == nullptr) continue;
-    outcome.transported.push_back(field(simulation, mpm::kQuantityNames[static_cast<int>(kind)]));
+    outcome.transported.push_back(field(simulation, mpm::traits_of(kind).name));
   }
   outcome.metrics = simulation.metrics();
   outcome.state_hash = simulation.state_hash();

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "pair_scene.hpp"
 
 namespace verification {
 namespace pair_laws_test {
 
 constexpr double kGravity = 10.0;  // [m/s^2]
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 
 constexpr double kAngle = kPi / 6.0, kFrom = 0.1, kUntil = 0.6;  // angle of the slope; interval of the means [s]
 

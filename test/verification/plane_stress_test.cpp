@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "ring_stress.hpp"
 #include "scene_run.hpp"
@@ -12,7 +13,7 @@
 namespace verification {
 namespace plane_stress_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kYoung = 1e6, kPoisson = 0.3;  // both plates; [Pa]
 
 double mean_of(const std::vector<double>& values, const std::vector<std::size_t>& chosen) {

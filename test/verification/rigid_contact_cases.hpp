@@ -15,12 +15,13 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kGravity = 9.81;  // [m/s^2]
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "ring_stress.hpp"
 #include "scene_run.hpp"
@@ -14,7 +15,7 @@
 namespace verification {
 namespace spinning_disk_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kRate = 2.0 * kPi;                // [rad/s]
 const SteadyDisk kDisk{1000.0, kRate, 0.3 / 0.7};  // numbers of the scene; n above
 

@@ -7,13 +7,14 @@
 // test. Cost: 3 s.
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
 
 namespace verification {
 namespace surface_flux_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kLength = 0.1, kConductivity = 100.0, kCapacity = 1e6, kDiffusivity = 1e-4;  // numbers of heated_slab
 constexpr double kStefanBoltzmann = 5.670374419e-8;  // [W/(m^2 K^4)], CODATA 2018
 

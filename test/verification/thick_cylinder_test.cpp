@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace thick_cylinder_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kInner = 0.1, kOuter = 0.2, kBand = 0.02;           // radii, thickness of the loaded part [m]
 constexpr double kYoung = 200e9, kYield = 250e6, kDensity = 7800.0;  // [Pa], [kg/m^3]
 constexpr double kRamp = 250e6 / 2e-3;                               // growth of the load [Pa/s]

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "scene_run.hpp"
 
@@ -171,7 +172,7 @@ TEST(Traction, TubeUnderPressureIsLames) {
 // an exception (1.1 %): corners of its particles' boxes lie in other cells than the particles, whose nodes move
 // differently.
 TEST(Traction, WorksAndRepeats) {
-  for (std::size_t kind = 0; kind < mpm::kShapeNames.size(); ++kind) {
+  for (std::size_t kind = 0; kind < mpm::kShapeTraits.size(); ++kind) {
     const auto shape = static_cast<ShapeKind>(kind);
     auto d = block(GeometryKind::plane_strain, shape, Vec3::Constant(1.0), {4, 1, 4});
     d.method.damping = 0.0;
@@ -205,7 +206,7 @@ TEST(Traction, ForceOnRingsIsSharedByMass) {
   d.particle_forces = {load};
   mpm::Simulation simulation(d, {1});
   verification::run_until(simulation, 0.2);
-  const double mass = 1000.0 * 3.14159265358979323846 * 0.4 * 0.4 * 0.4;  // mass of the cylinder
+  const double mass = 1000.0 * mpm::kPi * 0.4 * 0.4 * 0.4;  // mass of the cylinder
   const double velocity = 50.0 * 0.2 / mass;
   for (const double vz : field(simulation, "vz")) EXPECT_NEAR(vz, velocity, 1e-12 * velocity);
   EXPECT_NEAR(simulation.state().audit.momentum.z(), 10.0, 1e-11);

@@ -6,6 +6,7 @@
 // Phys. 257, 594-626: RKL2 is of second order, and stable up to (s^2 + s - 2) / 4 steps of 2 / (largest a).
 #include <fmt/core.h>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/transport/stages.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
@@ -13,7 +14,7 @@
 namespace verification {
 namespace transport_stages_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr int kNodes = 33;                             // nodes of the chain, its ends held
 constexpr double kCapacity = 2.0, kLink = 3.0;         // capacity of a node, and link between two
 constexpr double kStable = kCapacity / (4.0 * kLink);  // half of the longest stable step, as (6.32)

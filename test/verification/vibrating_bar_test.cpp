@@ -7,13 +7,14 @@
 
 #include <algorithm>
 
+#include "mpm/math/constants.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace vibrating_bar_test {
 
-constexpr double kPi = 3.14159265358979323846;
+using mpm::kPi;
 constexpr double kLength = 1.0, kSpeed = 100.0;  // numbers of the scene [m], [m/s]
 constexpr double kPeriod = 4.0 * kLength / kSpeed;
 constexpr double kBeta = kPi / (2.0 * kLength);

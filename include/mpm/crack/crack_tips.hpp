@@ -22,6 +22,7 @@
 #include "mpm/crack/j_integral.hpp"
 #include "mpm/crack/tip_growth.hpp"
 #include "mpm/crack/tip_heating.hpp"
+#include "mpm/crack/tip_numbers.hpp"
 #include "mpm/crack/tip_values.hpp"
 
 namespace mpm {
@@ -46,28 +47,14 @@ struct TipSettings {
 };
 
 /// A tip as it was last looked at.
-struct CrackTip {
+struct CrackTip : TipNumbers {
   int crack = 0, end = 0;
   bool looked = false;                                   ///< J has been asked for
   ContourStatus status = ContourStatus::meets_no_crack;  ///< `complete`: J is known
-  double j = 0.0;                                        ///< at the tip, without work of tractions behind it [J/m^2]
-  double zone = 0.0;                                     ///< that work, by area [J/m^2]
-  StressIntensity k;                                     ///< 0 where the material has none
-  FaceOpening opening;                                   ///< near the tip, in its frame [m]
   int material = -1;                                     ///< index in TipSettings::materials
   Vec2 start_direction = Vec2::UnitX();                  ///< at the run's start
-  double speed = 0.0;           ///< speed of the last growth: its length over the time since [m/s]
-  double running = 0.0;         ///< at a speed that its criterion sets, now [m/s]
-  double grown = 0.0;           ///< by so much since the start [m]
-  double angle = 0.0;           ///< angle of the last growth from the direction before it [rad]
-  double first_angle = 0.0;     ///< angle of the first growth [rad]
-  double released = 0.0;        ///< J at the last growth, with the zone [J/m^2]
-  double energy_release = 0.0;  ///< by the balance of energy, in its last growths [J/m^2]
-  double last_growth = 0.0;     ///< time of it [s]
-  double next_look = 0.0;       ///< at growth, not before [s]
-  int growths = 0;
-  bool by_alternate = false;  ///< the last growth
-  std::string why;            ///< it grew or did not, or stopped for good
+  bool by_alternate = false;                             ///< the last growth
+  std::string why;                                       ///< it grew or did not, or stopped for good
   TipGrowth growth;
 };
 

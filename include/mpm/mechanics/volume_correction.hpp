@@ -35,7 +35,7 @@
 #include <memory>
 #include <vector>
 
-#include "mpm/material/newtonian_fluid.hpp"
+#include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
@@ -54,8 +54,11 @@ class VolumeCorrection final : public Stage {
   /// A set of particles, all of them in the order of the run's.
   struct Body {
     ParticleSet* set;
-    const NewtonianFluid* fluid;  ///< null of other laws
-    double density;               ///< before deformation [kg/m^3]
+    const Law* law;
+    double density() const {
+      return std::visit([](const auto& own) { return own.density(); }, *law);
+    }
+    bool liquid() const { return traits_of(*law).matter == Matter::liquid; }
   };
 
   /// All pointers outlive the stage. `transfer`: of these sets. `cell`: volume of a cell [m^3]; about an axis
@@ -95,8 +98,8 @@ class VolumeCorrection final : public Stage {
   double share_along(const Grid& grid, int axis, int node) const;
   void gather(Fields& fields);
   /// Returns the energy that the particles of a body lose [J].
-  template <class Geometry>
-  double correct(const Body& body, const Numbers& numbers);
+  template <class Geometry, class Liquid>
+  double correct(const Liquid& law, const Body& body, const Numbers& numbers);
 
   template <class Number>
   const ScalarTransfer::Taken& fluids_take(Number&& number);

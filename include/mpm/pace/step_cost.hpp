@@ -14,8 +14,6 @@
 
 namespace mpm::pace {
 
-constexpr double kTimeUnit = 1e-9;  ///< unit of simulated time [s]
-
 struct StepCost {
   double step_seconds = 0.0;      ///< wall time of a step [s]
   double steps_per_second = 0.0;  ///< steps in a second of simulated time [1/s]

@@ -50,21 +50,40 @@ struct BodyMomentum {
   }
 };
 
-/// Balance of a free body: momentum = that of the start + contact + gravity + wrench + drive, each since the start.
-struct FreeBodyReport {
-  std::string body;
-  double mass = 0.0;           ///< [kg]
-  Vec3 centre = Vec3::Zero();  ///< centre of mass, world [m]
-  BodyMomentum momentum, initial_momentum;
+/// Counts since the start of the run: momentum = that of the start + contact + gravity + wrench + drive.
+struct FreeAccount {
+  BodyMomentum initial_momentum;
   BodyMomentum contact;  ///< from the material
   BodyMomentum gravity;
   BodyMomentum wrench;        ///< applied by apply_wrench()
   BodyMomentum drive;         ///< needed to keep prescribed velocities
-  double kinetic = 0.0;       ///< [J]
-  double potential = 0.0;     ///< -m g.x [J]
-  double wrench_work = 0.0;   ///< done by the wrench since the start [J]
+  double wrench_work = 0.0;   ///< done by the wrench [J]
   double drive_work = 0.0;    ///< done by the drive [J]
   double contact_loss = 0.0;  ///< lost where the body and the material met, sliding left out [J]
+};
+
+/// A count of an account, by its name in checkpoints.
+template <class Count>
+struct FreeCount {
+  const char* name;
+  Count FreeAccount::*count;
+};
+inline constexpr FreeCount<BodyMomentum> kFreeMomenta[] = {{"initial", &FreeAccount::initial_momentum},
+                                                           {"contact", &FreeAccount::contact},
+                                                           {"gravity", &FreeAccount::gravity},
+                                                           {"applied", &FreeAccount::wrench},
+                                                           {"drive", &FreeAccount::drive}};
+inline constexpr FreeCount<double> kFreeEnergies[] = {{"wrench_work", &FreeAccount::wrench_work},
+                                                      {"drive_work", &FreeAccount::drive_work},
+                                                      {"loss", &FreeAccount::contact_loss}};
+
+struct FreeBodyReport : FreeAccount {
+  std::string body;
+  double mass = 0.0;           ///< [kg]
+  Vec3 centre = Vec3::Zero();  ///< centre of mass, world [m]
+  BodyMomentum momentum;
+  double kinetic = 0.0;    ///< [J]
+  double potential = 0.0;  ///< -m g.x [J]
 };
 
 class FreeMotion final : public BodyMotion {
@@ -145,9 +164,7 @@ class FreeMotion final : public BodyMotion {
   Mat3 inertia_ = Mat3::Zero(), lifted_ = Mat3::Zero();
   BodyMomentum step_wrench_, step_drive_;
 
-  // Since the start.
-  BodyMomentum initial_, contact_, gravity_, applied_, drive_;
-  double wrench_work_ = 0.0, drive_work_ = 0.0, loss_ = 0.0;
+  FreeAccount account_;
 };
 
 }  // namespace mpm

@@ -22,6 +22,7 @@
 #include <initializer_list>
 
 #include "mpm/math/lanes.hpp"
+#include "mpm/shape/traits.hpp"
 
 namespace mpm {
 
@@ -44,11 +45,15 @@ void fold_node(Mask beyond, T& outer, T& next, T& inner) {
 
 /// Values and gradients at the three nodes nearest-1, nearest, nearest+1.
 template <class T>
-struct QuadraticSpline {
+struct QuadraticSpline : ShapeDefaults {
   static constexpr int kNodes = 3;
-  static constexpr bool kStretches = false;
   static constexpr bool kFoldsAtWalls = true;
-  static constexpr bool kAxisymmetric = false;
+  static constexpr ShapeKind kKind = ShapeKind::bspline2;
+  static constexpr const char* kName = "bspline2";
+  static constexpr int kDegree = 2;
+  static constexpr Follows kFollows = Follows::nothing;
+  static constexpr int kMostNodes = 3;
+  static constexpr double kBeyondNext = 1.0 / 48.0;
   using Axis = SplineAxis<T>;
 
   T s[3];  ///< shape function, sums to 1
@@ -78,11 +83,15 @@ struct QuadraticSpline {
 
 /// Values and gradients at the five nodes nearest-2 to nearest+2; those of one outermost node are 0.
 template <class T>
-struct CubicSpline {
+struct CubicSpline : ShapeDefaults {
   static constexpr int kNodes = 5;
-  static constexpr bool kStretches = false;
   static constexpr bool kFoldsAtWalls = true;
-  static constexpr bool kAxisymmetric = false;
+  static constexpr ShapeKind kKind = ShapeKind::bspline3;
+  static constexpr const char* kName = "bspline3";
+  static constexpr int kDegree = 3, kSurfaceDegree = 3;
+  static constexpr Follows kFollows = Follows::nothing;
+  static constexpr int kMostNodes = 4;
+  static constexpr double kBeyondNext = 1.0 / 24.0;
   using Axis = SplineAxis<T>;
 
   T s[5];  ///< shape function, sums to 1

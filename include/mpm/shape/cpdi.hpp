@@ -14,14 +14,20 @@
 #pragma once
 
 #include "mpm/shape/particle_domain.hpp"
+#include "mpm/shape/traits.hpp"
 
 namespace mpm {
 
 /// The corners of a domain. `d[k][c]`: component c of half vector k (shape/particle_domain.hpp), in any unit of length.
 template <int Dim>
-struct Cpdi {
+struct Cpdi : ShapeDefaults {
   static constexpr int kPoints = 1 << Dim;
-  static constexpr bool kAxisymmetric = false;  ///< has radial() (shape/axisymmetric_points.hpp)
+  static constexpr ShapeKind kKind = ShapeKind::cpdi;
+  static constexpr const char *kName = "cpdi", *kOtherName = "lcpdi";
+  static constexpr int kDegree = 0;
+  static constexpr Follows kFollows = Follows::deformation;
+  static constexpr int kMostNodes = 4;  // two at each of two corners
+  static constexpr bool kShearLimitsStep = true;
 
   /// The side of the particle along half vector `k` on which corner `a` lies, -1 or 1: bit k of a. In the plane the
   /// corners 1, 2, 3, 4 of the papers, counter-clockwise, are 0, 1, 3, 2 here.

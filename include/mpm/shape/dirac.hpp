@@ -5,16 +5,19 @@
 #pragma once
 
 #include "mpm/math/lanes.hpp"
+#include "mpm/shape/traits.hpp"
 
 namespace mpm {
 
 /// Values and gradients at the three nodes nearest-1, nearest, nearest+1; those of one outer node are 0.
 template <class T>
-struct Dirac {
+struct Dirac : ShapeDefaults {
   static constexpr int kNodes = 3;
-  static constexpr bool kStretches = false;
-  static constexpr bool kFoldsAtWalls = false;
-  static constexpr bool kAxisymmetric = false;
+  static constexpr ShapeKind kKind = ShapeKind::dirac;
+  static constexpr const char *kName = "dirac", *kOtherName = "classic";
+  static constexpr int kDegree = 1;
+  static constexpr Follows kFollows = Follows::nothing;
+  static constexpr int kMostNodes = 2;
 
   struct Axis {
     T inverse_cell;

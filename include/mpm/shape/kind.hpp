@@ -1,29 +1,41 @@
-// The shape functions and their names in a scene. Each has a file in this folder that states what it does and where it
-// is weak.
+// The closed list of shape functions. Each has a file in this folder that states what it does, where it is weak, and
+// the facts that others ask of it (traits.hpp): they ask by trait, not by name. To add one: a name in ShapeKind, a file
+// beside these and its class below; doc/architecture.md says what its kernels need.
 #pragma once
 
 #include <array>
+#include <cstddef>
+
+#include "mpm/shape/bspline.hpp"
+#include "mpm/shape/cpdi.hpp"
+#include "mpm/shape/dirac.hpp"
+#include "mpm/shape/qcpdi.hpp"
+#include "mpm/shape/traits.hpp"
+#include "mpm/shape/ugimp.hpp"
+#include "mpm/shape/ugimp_stretch.hpp"
 
 namespace mpm {
 
-enum class ShapeKind {
-  dirac,          ///< hat functions at the particle's centre: classic MPM
-  ugimp,          ///< averaged over a box that keeps its size
-  ugimp_stretch,  ///< averaged over a box that stretches with the diagonal of F
-  cpdi,           ///< averaged over the deformed box, linear between its corners
-  qcpdi,          ///< as cpdi, but biquadratic on nine points; planar
-  bspline2,       ///< quadratic B-splines at the centre
-  bspline3,       ///< cubic ones
-};
+template <class... Shape>
+constexpr std::array<ShapeTraits, sizeof...(Shape)> traits_of_shapes() {
+  return {{{Shape::kKind, Shape::kName, Shape::kOtherName, Shape::kDegree, Shape::kFollows, Shape::kMostNodes,
+            Shape::kSurfaceDegree, Shape::kBeyondNext, Shape::kMasslessAtAxis, Shape::kShearLimitsStep,
+            Shape::kTakesImplicit}...}};
+}
 
 /// In the order of ShapeKind.
-inline constexpr std::array<const char*, 7> kShapeNames = {"dirac", "ugimp",    "ugimp_stretch", "cpdi",
-                                                           "qcpdi", "bspline2", "bspline3"};
-inline const char* shape_name(ShapeKind kind) { return kShapeNames[static_cast<int>(kind)]; }
+inline constexpr auto kShapeTraits = traits_of_shapes<Dirac<double>, Ugimp<double>, UgimpStretch<double>, Cpdi<2>,
+                                                      Qcpdi<2>, QuadraticSpline<double>, CubicSpline<double>>();
 
-/// True if the particle's domain follows its deformation; it is then stored at the start of a step and constant in it.
-constexpr bool follows_deformation(ShapeKind kind) {
-  return kind == ShapeKind::ugimp_stretch || kind == ShapeKind::cpdi || kind == ShapeKind::qcpdi;
+constexpr bool shapes_in_order() {
+  for (std::size_t i = 0; i < kShapeTraits.size(); ++i) {
+    if (kShapeTraits[i].kind != static_cast<ShapeKind>(i)) return false;
+  }
+  return true;
 }
+static_assert(shapes_in_order());
+
+constexpr const ShapeTraits& traits_of(ShapeKind kind) { return kShapeTraits[static_cast<std::size_t>(kind)]; }
+constexpr const char* shape_name(ShapeKind kind) { return traits_of(kind).name; }
 
 }  // namespace mpm

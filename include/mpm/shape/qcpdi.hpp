@@ -8,16 +8,22 @@
 #pragma once
 
 #include "mpm/shape/particle_domain.hpp"
+#include "mpm/shape/traits.hpp"
 
 namespace mpm {
 
 /// The nine points of a domain: point a = 3 (t + 1) + s + 1 lies at s d_0 + t d_1, s and t in {-1, 0, 1}; in the method
 /// reference's order the corners are 0, 2, 8, 6, the edges 1, 5, 7, 3 and the centre 4. `d` as for CPDI.
 template <int Dim>
-struct Qcpdi {
+struct Qcpdi : ShapeDefaults {
   static_assert(Dim == 2, "qCPDI is planar");
   static constexpr int kPoints = 9;
-  static constexpr bool kAxisymmetric = false;  ///< has radial() (shape/axisymmetric_points.hpp)
+  static constexpr ShapeKind kKind = ShapeKind::qcpdi;
+  static constexpr const char* kName = "qcpdi";
+  static constexpr int kDegree = 0;
+  static constexpr Follows kFollows = Follows::deformation;
+  static constexpr int kMostNodes = 6;  // two at each of three points
+  static constexpr bool kMasslessAtAxis = true;
 
   /// w_a; the weights sum to 1.
   static constexpr double weight(int a) { return a == 4 ? 4.0 / 9.0 : a % 2 == 0 ? 1.0 / 36.0 : 1.0 / 9.0; }

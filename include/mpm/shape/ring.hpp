@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-namespace mpm {
+#include "mpm/math/constants.hpp"
 
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
+namespace mpm {
 
 /// The integral of 2 pi r over a section from r - half to r + half, divided by the section's whole width [m]. The part
 /// beyond the axis does not count, or, with `whole`, counts with its negative radius, as in the shape functions.

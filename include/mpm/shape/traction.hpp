@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/geometry_kind.hpp"
 
 namespace mpm {
@@ -54,7 +55,6 @@ struct FaceParts {
 namespace traction {
 
 using Vector = PlacedDomain::Vector;
-inline constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
 
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -87,8 +87,8 @@ inline FaceParts face_parts(GeometryKind geometry, const PlacedDomain& domain, D
   if (domain.dim == 2) {
     parts.corners = 2;
     const double edge = traction::length(da);
-    const double mean = axisymmetric(geometry) ? traction::kTwoPi * parts.middle[0] : across;
-    const double slope = axisymmetric(geometry) ? traction::kTwoPi * da[0] / 3.0 : 0.0;
+    const double mean = axisymmetric(geometry) ? kTurn * parts.middle[0] : across;
+    const double slope = axisymmetric(geometry) ? kTurn * da[0] / 3.0 : 0.0;
     for (int i = 0; i < 2; ++i) {
       const double end = 2.0 * i - 1.0;
       for (int c = 0; c < 2; ++c) parts.corner[i].at[c] = parts.middle[c] + end * da[c];

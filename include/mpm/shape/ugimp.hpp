@@ -6,16 +6,20 @@
 #pragma once
 
 #include "mpm/math/lanes.hpp"
+#include "mpm/shape/traits.hpp"
 
 namespace mpm {
 
 /// Values and gradients at the three nodes nearest-1, nearest, nearest+1.
 template <class T>
-struct Ugimp {
-  static constexpr int kNodes = 3;              ///< along an axis
-  static constexpr bool kStretches = false;     ///< true if each particle has a half-width of its own
-  static constexpr bool kFoldsAtWalls = false;  ///< has fold(), which removes weight beyond walls
-  static constexpr bool kAxisymmetric = false;  ///< has radial(), the function along a radius (shape/axisymmetric.hpp)
+struct Ugimp : ShapeDefaults {
+  static constexpr int kNodes = 3;  ///< along an axis
+  static constexpr ShapeKind kKind = ShapeKind::ugimp;
+  static constexpr const char *kName = "ugimp", *kOtherName = "gimp";
+  static constexpr int kDegree = 0;
+  static constexpr Follows kFollows = Follows::nothing;
+  static constexpr int kMostNodes = 3;
+  static constexpr bool kTakesImplicit = true;
 
   /// Data that all particles of a body share along one axis.
   struct Axis {

@@ -14,6 +14,10 @@ namespace mpm {
 template <class T>
 struct UgimpStretch : Ugimp<T> {
   static constexpr bool kStretches = true;
+  static constexpr ShapeKind kKind = ShapeKind::ugimp_stretch;
+  static constexpr const char *kName = "ugimp_stretch", *kOtherName = nullptr;
+  static constexpr Follows kFollows = Follows::stretch;
+  static constexpr bool kTakesImplicit = false;
 
   /// Least half-width [cells]. At 1/100 the function differs from the hat only within a hundredth of a cell of each
   /// node; below it, differences of nearly equal numbers cost digits of the gradient.

@@ -19,6 +19,7 @@
 #include "mpm/math/error.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/math/tensor.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"

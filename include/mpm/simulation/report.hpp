@@ -8,6 +8,7 @@
 
 #include "mpm/contact/contact_report.hpp"
 #include "mpm/contact/pair_report.hpp"
+#include "mpm/crack/tip_numbers.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/module.hpp"
@@ -61,17 +62,12 @@ struct CrackReport {
 };
 
 /// The tip of an explicit crack, as it was last looked at: at the last sync point, or when it could grow.
-struct CrackTipReport {
+struct CrackTipReport : TipNumbers {
   std::string crack, end;                                ///< the crack's name; "start" or "end" of its chain
   Vec3 place = Vec3::Zero(), direction = Vec3::UnitX();  ///< world [m]; of growth straight on
-  std::string state, growth, material;           ///< state of J; reason why it grew or not; material of constants
-  double j = 0.0, zone = 0.0;                    ///< at the tip; work of tractions behind it [J/m^2]
-  double k_one = 0.0, k_two = 0.0;               ///< [Pa sqrt(m)]
-  double opening = 0.0, slip = 0.0;              ///< opening and slip of the faces next to it [m]
-  double grown = 0.0, speed = 0.0, angle = 0.0;  ///< since the start [m]; of the last growth [m/s], [rad]
-  int growths = 0;
-  bool has_j = true;     ///< false: it was looked at, and J could not be found
-  bool stopped = false;  ///< it grows no more, as `growth` says
+  std::string state, growth, material;  ///< state of J; reason why it grew or not; material of constants
+  bool has_j = true;                    ///< false: it was looked at, and J could not be found
+  bool stopped = false;                 ///< it grows no more, as `growth` says
 };
 
 /// Sharing of the particles among ranks.

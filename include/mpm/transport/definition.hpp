@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +20,21 @@
 namespace mpm {
 
 enum class Transported { temperature, concentration, pore_pressure };
-inline constexpr int kQuantities = 3;
-inline constexpr std::array<const char*, kQuantities> kQuantityNames = {"temperature", "concentration",
-                                                                        "pore_pressure"};
-/// Units of the quantity, and of its content: heat [J], solute over its saturation [m^3], water [m^3].
-inline constexpr std::array<const char*, kQuantities> kQuantityUnits = {"K", "1", "Pa"};
-inline constexpr std::array<const char*, kQuantities> kContentUnits = {"J", "m^3", "m^3"};
+
+/// Facts about a quantity, by which others name and treat it.
+struct TransportedTraits {
+  const char* name;
+  const char* unit;
+  const char* content_unit;  ///< unit of heat, of solute over its saturation, of water
+  bool absolute;             ///< has no value below zero
+  bool by_mass;              ///< its capacity is that of a mass, else that of a volume
+};
+/// In the order of Transported.
+inline constexpr TransportedTraits kTransported[] = {{"temperature", "K", "J", true, true},
+                                                     {"concentration", "1", "m^3", false, false},
+                                                     {"pore_pressure", "Pa", "m^3", false, false}};
+inline constexpr int kQuantities = std::size(kTransported);
+constexpr const TransportedTraits& traits_of(Transported quantity) { return kTransported[static_cast<int>(quantity)]; }
 
 /// A constant of a material, or a number that follows the quantity along straight lines between given points and stays
 /// what it is beyond them.

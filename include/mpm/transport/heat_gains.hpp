@@ -72,7 +72,5 @@ class LawTemperature final : public LocalGain {
 
 /// Index of a law's temperature in its history, or negative.
 int temperature_index(const Law& law);
-/// Bulk modulus of the unstrained material [Pa]; 0 for a law without a constant one.
-double bulk_modulus(const LawDefinition& law);
 
 }  // namespace mpm

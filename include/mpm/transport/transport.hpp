@@ -23,6 +23,9 @@
 
 namespace mpm {
 
+/// Names and units of the numbers that any scene may have, by name "temperature content".
+std::vector<std::pair<std::string, std::string>> transport_numbers();
+
 class Transport final : public Stage {
  public:
   /// `drained_speeds`: of each set, its fastest wave without water [m/s]; `sync`: [ns].

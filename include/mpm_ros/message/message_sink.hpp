@@ -27,19 +27,18 @@ class MessageSink {
   /// on each rank, and they want clouds together.
   virtual bool takes_own_particles() const { return false; }
 
-  virtual void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp,
-                   const visualization_msgs::MarkerArray& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp, const ContactForces& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp, const geometry_msgs::WrenchStamped& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) = 0;
-  /// Not every sink has a place for them.
+  // A sink leaves out what it has no place for.
+  virtual void put(const std::string&, const ros::Time&, const RunInfo&) {}
+  virtual void put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray&) {}
+  virtual void put(const std::string&, const ros::Time&, const ContactForces&) {}
+  virtual void put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
+  virtual void put(const std::string&, const ros::Time&, const BodyStates&) {}
+  virtual void put(const std::string&, const ros::Time&, const SolverState&) {}
   virtual void put(const std::string&, const ros::Time&, const GlobalQuantities&) {}
   virtual void put(const std::string&, const ros::Time&, const Cracks&) {}
-  virtual void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) = 0;
-  virtual void put(const std::string& topic, const ros::Time& stamp, const Command& message) = 0;
+  virtual void put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
+  virtual void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) {}
+  virtual void put(const std::string&, const ros::Time&, const Command&) {}
 };
 
 }  // namespace mpm_ros

@@ -1,9 +1,10 @@
-// The lists of what a run reports of a contact, of a pair of bodies and of its state. A line is a number; their order
-// is that of the CSV columns.
+// The lists of what a run reports of a contact, of a pair of bodies, of a crack's tip and of its state. A line is a
+// number; their order is that of the CSV columns.
 #pragma once
 
 #include <mpm_ros/ContactForce.h>
 #include <mpm_ros/ContactPair.h>
+#include <mpm_ros/CrackTip.h>
 #include <mpm_ros/SolverState.h>
 
 #include <string>
@@ -16,12 +17,15 @@ namespace mpm_ros {
 
 using ContactQuantity = Quantity<mpm::ContactReport, ContactForce>;
 using PairQuantity = Quantity<mpm::PairReport, ContactPair>;
+using TipQuantity = Quantity<mpm::CrackTipReport, CrackTip>;
 using StateQuantity = Quantity<mpm::SolverState, SolverState>;
 
 /// Quantities of a rigid body's contact with the material; the first is the mean force.
 const std::vector<ContactQuantity>& contact_quantities();
 /// Quantities of the contact between two deformable bodies; the first is the mean force on the second.
 const std::vector<PairQuantity>& pair_quantities();
+/// Quantities of a crack's tip as it was last looked at.
+const std::vector<TipQuantity>& tip_quantities();
 /// Quantities of the solver; impulses have names of their own and stand beside these.
 const std::vector<StateQuantity>& state_quantities();
 

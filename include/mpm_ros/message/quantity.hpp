@@ -168,12 +168,22 @@ void fill(Message& message, const Report& report, const std::vector<Quantity<Rep
   }
 }
 
+/// The values of a message that has any.
+template <class Message>
+auto values_in(const Message& message, int) -> decltype((message.values)) {
+  return message.values;
+}
+template <class Message>
+std::vector<NamedValue> values_in(const Message&, long) {
+  return {};
+}
+
 /// Those of the message's values that the list does not describe: what a module of the solver brings by a name of its
 /// own.
 template <class Report, class Message>
 std::vector<NamedValue> others(const Message& message, const std::vector<Quantity<Report, Message>>& quantities) {
   std::vector<NamedValue> found;
-  for (const NamedValue& value : message.values) {
+  for (const NamedValue& value : values_in(message, 0)) {
     const auto named = [&value](const auto& one) { return one.name == value.name; };
     if (std::none_of(quantities.begin(), quantities.end(), named)) found.push_back(value);
   }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/motion.hpp"
 
@@ -14,7 +15,7 @@ class WrenchFilter {
  public:
   /// `cutoff` [Hz] in (0, 1/(2 period)), `period` [s] of the samples.
   WrenchFilter(double cutoff, double period) {
-    const double k = std::tan(kHalfTurn * cutoff * period), scale = 1.0 / (1.0 + kRoot2 * k + k * k);
+    const double k = std::tan(mpm::kPi * cutoff * period), scale = 1.0 / (1.0 + kRoot2 * k + k * k);
     in_ = k * k * scale;
     out1_ = 2.0 * (k * k - 1.0) * scale;
     out2_ = (1.0 - kRoot2 * k + k * k) * scale;
@@ -31,7 +32,6 @@ class WrenchFilter {
   }
 
  private:
-  static constexpr double kHalfTurn = 3.14159265358979323846;
   static constexpr double kRoot2 = 1.41421356237309504880;
 
   /// Memory of a vector's filter (direct form II, transposed).

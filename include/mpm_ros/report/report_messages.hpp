@@ -19,7 +19,4 @@ std::string command_kind_name(std::uint8_t kind);
 /// `time` [ns] since the start.
 CommandRow command_row_of(std::int64_t time, const Command& message);
 
-/// Nanoseconds as seconds.
-inline double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }
-
 }  // namespace mpm_ros

@@ -20,10 +20,8 @@ class CsvSink : public MessageSink {
 
   bool wants(const std::string& topic) const override;
   // Each @throws CsvError when it cannot be written.
-  void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const visualization_msgs::MarkerArray& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const ContactForces& message) override;
-  void put(const std::string& topic, const ros::Time& stamp, const geometry_msgs::WrenchStamped& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) override;

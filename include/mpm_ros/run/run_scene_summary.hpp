@@ -42,7 +42,7 @@ struct RunSummary {
   Contacts contacts;              ///< impulses and energies since the start
   std::vector<std::pair<std::string, double>> metrics;
 
-  double seconds() const { return static_cast<double>(state.time) / 1e9; }
+  double seconds() const { return mpm::nearest_seconds(state.time); }
   double particle_steps_per_second() const;
   double real_time_factor() const;
 };

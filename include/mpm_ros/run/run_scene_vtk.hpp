@@ -28,16 +28,11 @@ class VtkSink : public MessageSink {
   bool wants(const std::string& topic) const override;
   bool takes_own_particles() const override { return ranks_ != nullptr; }
   // Each @throws VtkError when it cannot be written; that of a cloud on all ranks, with one reason.
-  void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const visualization_msgs::MarkerArray& message) override;
-  void put(const std::string& topic, const ros::Time& stamp, const ContactForces& message) override;
-  void put(const std::string& topic, const ros::Time& stamp, const geometry_msgs::WrenchStamped& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) override;
-  void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Cracks& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
-  void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
 
  private:
   bool first() const { return ranks_ == nullptr || ranks_->first(); }

@@ -3,71 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/material/moduli.hpp"
 #include "mpm/ranks/lists.hpp"
-#include "mpm/shape/bspline.hpp"
+#include "mpm/shape/spline_weights.hpp"
 
 namespace mpm {
-namespace {
-
-/// Bulk and shear modulus at the start [Pa].
-struct Moduli {
-  double bulk, shear;
-};
-
-Moduli moduli(const NewtonianFluidDefinition& law, double) { return {law.bulk_modulus, 0.0}; }
-Moduli moduli(const IdealGasDefinition& law, double) {
-  return {law.pressure * (law.process == GasProcess::adiabatic ? law.heat_capacity_ratio : 1.0), 0.0};
-}
-Moduli moduli(const JohnsonCookDefinition& law, double density) {
-  return {density * law.pressure.sound_speed * law.pressure.sound_speed, law.shear_modulus};
-}
-// Without pressure; a face at clay or norsand is refused (simulation/boundary_modules.cpp).
-Moduli moduli(const CamClayDefinition& law, double) {
-  const double bulk = (1.0 + law.void_ratio) * law.least_pressure / law.kappa;
-  return {bulk, law.shear_modulus > 0.0 ? law.shear_modulus : law.shear_over_bulk() * bulk};
-}
-Moduli moduli(const NorSandDefinition& law, double) {
-  const double shear = law.shear_modulus * std::pow(law.least_pressure / 1e5, law.shear_exponent);
-  return {shear / law.shear_over_bulk(), shear};
-}
-// A wave's front is faster than relaxation.
-Moduli moduli(const StandardLinearSolidDefinition& law, double) {
-  return {law.elasticity.bulk(), law.elasticity.shear() + law.branch_modulus};
-}
-template <class Law>
-Moduli moduli(const Law& law, double) {
-  return {law.elasticity.bulk(), law.elasticity.shear()};
-}
-
-/// Weight of the node on a wall, of particles in the middle of equal parts of cells along the wall's normal.
-template <class Spline>
-double spline_face_mass(int parts) {
-  constexpr int kFar = 100;  // the other wall [cells]
-  const typename Spline::Axis axis(0.0, 1.0);
-  double sum = 0.0;
-  for (int p = 0; p < Spline::kNodes * parts; ++p) {
-    const double x = (p + 0.5) / parts;
-    const int nearest = GridLayout::nearest(x), place = Spline::kNodes / 2 - nearest;
-    Spline spline(x - nearest, axis);
-    spline.fold(nearest, kFar);
-    if (place >= 0) sum += spline.s[place];
-  }
-  return sum / parts;
-}
-
-}  // namespace
 
 ElasticWaves elastic_waves(const MaterialDefinition& material, GeometryKind geometry) {
-  const auto [bulk, shear] = std::visit([&](const auto& law) { return moduli(law, material.density); }, material.law);
+  const auto [bulk, shear] = moduli_of(material);
   double modulus = bulk + 4.0 / 3.0 * shear;
   if (geometry == GeometryKind::plane_stress) modulus = 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear);
   return {std::sqrt(modulus / material.density), std::sqrt(shear / material.density)};
 }
 
 double face_mass(ShapeKind shape, int particles_per_direction) {
-  if (shape == ShapeKind::bspline2) return spline_face_mass<QuadraticSpline<double>>(particles_per_direction);
-  if (shape == ShapeKind::bspline3) return spline_face_mass<CubicSpline<double>>(particles_per_direction);
-  return 0.5;  // hat functions, averaged over boxes that end on the face or not
+  const ShapeTraits& traits = traits_of(shape);
+  if (!traits.spline()) return 0.5;  // hat functions, averaged over boxes that end on the face or not
+  double sum = 0.0;
+  for (int p = 0; p < weights_of_spline(traits.degree) * particles_per_direction; ++p) {
+    const AxisWeights along = spline_weights(traits.degree, (p + 0.5) / particles_per_direction, 0.0);
+    if (along.first <= 0) sum += along.weight[-along.first];
+  }
+  return sum / particles_per_direction;
 }
 
 Absorbing::Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets,

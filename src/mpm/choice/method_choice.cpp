@@ -53,10 +53,10 @@ MethodChoice choose(ShapeKind shape, UpdateScheme update, const Transfer& transf
 
 std::vector<MethodChoice> charted_methods() {
   std::vector<MethodChoice> list = {choose(ShapeKind::ugimp, UpdateScheme::usf, kFlip)};
-  for (std::size_t s = 0; s < kShapeNames.size(); ++s) {
-    const auto shape = static_cast<ShapeKind>(s);
+  for (const ShapeTraits& shape : kShapeTraits) {
     for (const UpdateScheme update : {UpdateScheme::usavg, UpdateScheme::usf, UpdateScheme::usl}) {
-      if (shape != ShapeKind::ugimp || update != UpdateScheme::usf) list.push_back(choose(shape, update, kFlip));
+      if (shape.kind != ShapeKind::ugimp || update != UpdateScheme::usf)
+        list.push_back(choose(shape.kind, update, kFlip));
     }
   }
   for (const ShapeKind shape : {ShapeKind::ugimp, ShapeKind::cpdi}) {

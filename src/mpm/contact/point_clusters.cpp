@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mpm/contact/point_solver.hpp"
+#include "mpm/shape/spline_weights.hpp"
 #include "mpm/step/point_weights.hpp"
 
 namespace mpm {
@@ -14,7 +15,7 @@ constexpr int kPointsPerThread = 32;  ///< fewer do not pay for the start of a t
 
 void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   const GridLayout& layout = fields_.front()->layout;
-  const int along = shape_ == ShapeKind::bspline3 ? 5 : 2, count = static_cast<int>(found.size());
+  const int along = weights_of_spline(traits_of(shape_).surface_degree), count = static_cast<int>(found.size());
   stride_ = sharp_ ? 2 : 1;  // nodes beyond edges, too
   for (int k = 0; k < layout.dim(); ++k) stride_ *= along;
   found_nodes_.resize(found.size() * stride_);

@@ -161,8 +161,9 @@ void PointSolver::relax(const Cluster& cluster, bool back, Progress& progress) {
 
 template <PointSolver::Pass Kind>
 void PointSolver::sweep_prescribed() {
-  // Cubic splines reach so far that the nodes beyond edges may belong to two blocks of one colour.
-  const int threads = any_at_edge_ && shape_ == ShapeKind::bspline3 ? 1 : threads_for(static_cast<int>(points_.size()));
+  // Splines reach so far that the nodes beyond edges may belong to two blocks of one colour.
+  const bool far = any_at_edge_ && traits_of(shape_).surface_degree > 1;
+  const int threads = far ? 1 : threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
   Progress all[2];  // progress of this sweep, and of the next
 #pragma omp parallel num_threads(threads)

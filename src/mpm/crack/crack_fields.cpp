@@ -17,29 +17,19 @@ constexpr double kSlack = 1e-6;  ///< slack of the extent of a particle [cells]
 /// Distance beyond its centre at which a particle's function begins to be that of a point along an axis [cells]: nodes
 /// farther than a cell beyond that get nothing.
 double extent(const ParticleSet& set, const GridLayout& layout, ShapeKind shape, std::size_t p, std::size_t axis) {
-  switch (shape) {
-    case ShapeKind::dirac:
-      return 0.0;
-    case ShapeKind::bspline2:
-      return 0.5;
-    case ShapeKind::bspline3:
-      return 1.0;
-    case ShapeKind::ugimp_stretch:
-      return 0.5;  // the most that it is stretched to
-    case ShapeKind::cpdi:
-    case ShapeKind::qcpdi: {
-      double d[2][2];
-      for (int k = 0; k < 2; ++k) {
-        for (int c = 0; c < 2; ++c) {
-          d[k][c] = static_cast<double>(set.f[2 * c + k][p]) * set.half[k] * layout.cell(k) * layout.inverse_cell(c);
-        }
+  const ShapeTraits& traits = traits_of(shape);
+  if (traits.degree > 0) return 0.5 * (traits.degree - 1);
+  if (traits.shears()) {
+    double d[2][2];
+    for (int k = 0; k < 2; ++k) {
+      for (int c = 0; c < 2; ++c) {
+        d[k][c] = static_cast<double>(set.f[2 * c + k][p]) * set.half[k] * layout.cell(k) * layout.inverse_cell(c);
       }
-      if (leans_too_far(d)) set_up(d);
-      return std::abs(d[0][axis]) + std::abs(d[1][axis]);
     }
-    default:
-      return set.half[axis];
+    if (leans_too_far(d)) set_up(d);
+    return std::abs(d[0][axis]) + std::abs(d[1][axis]);
   }
+  return traits.follows_deformation() ? 0.5 : set.half[axis];  // the most that a box is stretched to
 }
 
 Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.x[1][p]}; }

@@ -5,20 +5,6 @@
 namespace mpm {
 namespace {
 
-struct TipNumber {
-  const char *name, *unit;
-  double (*value)(const CrackTip&);
-};
-constexpr TipNumber kTipNumbers[] = {
-    {"j", "J/m^2", [](const CrackTip& tip) { return tip.j; }},
-    {"k_one", "Pa m^0.5", [](const CrackTip& tip) { return tip.k.one; }},
-    {"k_two", "Pa m^0.5", [](const CrackTip& tip) { return tip.k.two; }},
-    {"kink_angle", "rad", [](const CrackTip& tip) { return tip.first_angle; }},
-    {"growth", "m", [](const CrackTip& tip) { return tip.grown; }},
-    {"speed", "m/s", [](const CrackTip& tip) { return tip.speed; }},
-    {"opening", "m", [](const CrackTip& tip) { return tip.opening.normal; }},
-    {"energy_release", "J/m^2", [](const CrackTip& tip) { return tip.energy_release; }},
-};
 constexpr const char* kEnds[] = {"start", "end"};
 
 std::string tip_number(int crack, int end, const TipNumber& number) {
@@ -31,7 +17,9 @@ std::vector<std::pair<std::string, std::string>> crack_numbers(int number) {
   std::vector<std::pair<std::string, std::string>> list{{"crack length " + std::to_string(number), "m"},
                                                         {"debonded crack length " + std::to_string(number), "m"}};
   for (int end = 0; end < 2; ++end) {
-    for (const TipNumber& of : kTipNumbers) list.emplace_back(tip_number(number, end, of), of.unit);
+    for (const TipNumber& of : kTipNumbers) {
+      if (of.name != nullptr) list.emplace_back(tip_number(number, end, of), of.unit);
+    }
   }
   return list;
 }
@@ -103,7 +91,7 @@ void CrackStage::numbers(std::vector<NamedNumber>& list) const {
   list.push_back({"crack moves stopped", "1", once(static_cast<double>(parts_->motion->stopped()))});
   for (const CrackTip& tip : tips()) {
     for (const TipNumber& of : kTipNumbers) {
-      list.push_back({tip_number(tip.crack + 1, tip.end, of), of.unit, once(of.value(tip))});
+      if (of.name != nullptr) list.push_back({tip_number(tip.crack + 1, tip.end, of), of.unit, once(of.of(tip))});
     }
   }
 }

@@ -137,7 +137,8 @@ void CrackTips::find(CrackTip& tip) {
   tip.j = tip.zone = 0.0;
   tip.k = {};
   const Vec2 opening = chain.tip_opening(tip.end);
-  tip.opening = {opening[0], opening[1]};
+  tip.opening = opening[0];
+  tip.slip = opening[1];
   find_material(tip);
   const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
   lay_path(tip);
@@ -227,7 +228,7 @@ void CrackTips::split(CrackTip& tip) {
   const ElasticConstants& elastic = *settings_.materials[tip.material].elastic;
   const bool by_integral = settings_.split == CracksDefinition::Split::interaction && !axisymmetric(parts_.geometry);
   if (!by_integral) {
-    tip.k = split_by_openings(tip.j, tip.opening.normal, tip.opening.shear, elastic, tip.running);
+    tip.k = split_by_openings(tip.j, tip.opening, tip.slip, elastic, tip.running);
     return;
   }
   const Chain& chain = cracks_[tip.crack].chain;
@@ -243,7 +244,7 @@ void CrackTips::split(CrackTip& tip) {
   }
   tip.k.two -= std::copysign(std::min(friction, std::abs(tip.k.two)), tip.k.two);
   // K_I of closed faces means nothing; whether they are is known to a part of the slip.
-  if (tip.opening.normal <= kClosed * std::abs(tip.opening.shear)) tip.k.one = 0.0;
+  if (tip.opening <= kClosed * std::abs(tip.slip)) tip.k.one = 0.0;
 }
 
 void CrackTips::heat(double dt) {
@@ -260,23 +261,7 @@ void CrackTips::serialise(StateArchive& archive) {
     CrackTip& tip = tips_[t];
     archive.value("looked", tip.looked);
     archive.value("status", tip.status);
-    for (const auto& [name, number] : {std::pair<const char*, double*>{"j", &tip.j},
-                                       {"zone", &tip.zone},
-                                       {"k_one", &tip.k.one},
-                                       {"k_two", &tip.k.two},
-                                       {"opening_normal", &tip.opening.normal},
-                                       {"opening_shear", &tip.opening.shear},
-                                       {"speed", &tip.speed},
-                                       {"grown", &tip.grown},
-                                       {"angle", &tip.angle},
-                                       {"first_angle", &tip.first_angle},
-                                       {"running", &tip.running},
-                                       {"released", &tip.released},
-                                       {"energy_release", &tip.energy_release},
-                                       {"last_growth", &tip.last_growth},
-                                       {"next_look", &tip.next_look}}) {
-      archive.value(name, *number);
-    }
+    for (const TipNumber& of : kTipNumbers) archive.value(of.stored, of.at(tip));
     archive.value("material", tip.material);
     archive.value("growths", tip.growths);
     archive.value("by_alternate", tip.by_alternate);

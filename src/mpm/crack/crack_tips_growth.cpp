@@ -148,8 +148,8 @@ void CrackTips::grow(CrackTip& tip, double time, double dt) {
   state.time = time;
   if (tip.status == ContourStatus::complete) state.j = tip.j;
   state.k = tip.k;
-  state.normal_opening = tip.opening.normal;
-  state.shear_opening = tip.opening.shear;
+  state.normal_opening = tip.opening;
+  state.shear_opening = tip.slip;
   state.direction = chain.direction(tip.end);
   state.initial_direction = tip.start_direction;
   state.length = chain.length();

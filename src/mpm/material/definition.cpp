@@ -11,8 +11,6 @@ namespace mpm {
 
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 /// Throws unless `holds`. Conditions state what must be true, so that NaN fails them.
 void require(bool holds, const MaterialDefinition& material, const std::string& what) {
   if (!holds) throw MaterialError("material '" + material.name + "': " + what);

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/nearest.hpp"
 
 namespace mpm {
@@ -125,7 +126,7 @@ Function Function::parse(const std::string& expression, const FunctionUnits& uni
       parser.DefineVar(kPlace[k], &parsed->place[k]);
       if (places == FunctionPlaces::present_and_start) parser.DefineVar(kStart[k], &parsed->start[k]);
     }
-    parser.DefineConst("pi", M_PI);
+    parser.DefineConst("pi", kPi);
     parser.DefineConst("e", M_E);
     for (const auto& [name, value] : constants) parser.DefineConst(name, value);
     parser.SetExpr(expression);

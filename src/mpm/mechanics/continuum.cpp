@@ -348,7 +348,7 @@ void prepare(ParticleSet& set, ShapeKind shape, const Transfer& transfer) {
     for (std::size_t c = 0; c < components; ++c) field.emplace_back(set.precision, size);
     return field;
   };
-  if (follows_deformation(shape)) set.domain = room(shape == ShapeKind::ugimp_stretch ? dim : dim * dim);
+  set.domain = room(traits_of(shape).stored(static_cast<int>(dim)));
   if (transfer.kind == TransferKind::apic) set.affine = room(dim * dim);
 }
 

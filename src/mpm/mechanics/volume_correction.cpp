@@ -12,12 +12,6 @@ namespace {
 constexpr double kAlmostAll = 1.0 - 1e-6;  ///< part of weights: above what rounding leaves of all in single precision
 constexpr double kLeastShare = 1e-3;       ///< part of a cell: less is a node beyond the domain
 
-/// Integral of a spline over the cells beyond the node next to its middle one, which a wall there cuts off [cells].
-double beyond_next(ShapeKind shape) {
-  if (shape == ShapeKind::bspline2) return 1.0 / 48.0;
-  return shape == ShapeKind::bspline3 ? 1.0 / 24.0 : 0.0;
-}
-
 }  // namespace
 
 VolumeCorrection::VolumeCorrection(std::vector<Body> bodies, GeometryKind geometry, ShapeKind shape, int threads,
@@ -38,8 +32,9 @@ void VolumeCorrection::make_room() {
     const auto room = [&](PaddedArray<double>& array) {
       if (array.size() != size) array.assign(size, 0.0);
     };
-    if (of.volume.size() != size) of.volume.assign(size, 1.0 / bodies_[s].density);  // value that those of fluids keep
-    if (bodies_[s].fluid == nullptr) continue;
+    if (of.volume.size() != size)
+      of.volume.assign(size, 1.0 / bodies_[s].density());  // value that those of fluids keep
+    if (!bodies_[s].liquid()) continue;
     for (PaddedArray<double>* array : {&of.fullness, &of.full, &of.squares}) room(*array);
     for (int k = 0; k < dimensions(geometry_); ++k) room(of.slope[k]);
     if (axisymmetric(geometry_)) room(of.slope[2]);
@@ -52,8 +47,8 @@ void VolumeCorrection::find_volumes() {
   for (std::size_t s = 0; s < bodies_.size(); ++s) {
     const Body& body = bodies_[s];
     PaddedArray<double>& volume = numbers_[s].volume;
-    const double start = 1.0 / body.density;
-    if (body.fluid != nullptr) continue;
+    const double start = 1.0 / body.density();
+    if (body.liquid()) continue;
     const int count = body.set->awake();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int p = 0; p < count; ++p) volume[p] = start * determinant(Geometry::load_matrix(body.set->f, p));
@@ -71,7 +66,7 @@ double VolumeCorrection::share_along(const Grid& grid, int axis, int node) const
     const double inner = node > 0 ? radius / 2 - 1.0 / 6.0 : 0.0, outer = node < last ? radius / 2 + 1.0 / 6.0 : 0.0;
     return kTurn * layout.cell(0) * (inner + outer);
   }
-  const double beyond = beyond_next(shape_);
+  const double beyond = traits_of(shape_).beyond_next;
   const bool folds = grid.has_wall[2 * axis + (node > last - node ? 1 : 0)];
   if (from_face > 1) return 1.0;
   if (from_face == 1) return folds ? 1.0 - 2.0 * beyond : 1.0 - beyond;
@@ -117,7 +112,7 @@ template <class Number>
 const ScalarTransfer::Taken& VolumeCorrection::fluids_take(Number&& number) {
   takers_.assign(bodies_.size(), {});
   for (std::size_t s = 0; s < bodies_.size(); ++s) {
-    if (bodies_[s].fluid != nullptr) number(numbers_[s], takers_[s]);
+    if (bodies_[s].liquid()) number(numbers_[s], takers_[s]);
   }
   return takers_;
 }
@@ -150,7 +145,7 @@ void VolumeCorrection::gather(Fields& fields) {
     }
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
       Numbers& of = numbers_[s];
-      const int count = bodies_[s].fluid != nullptr ? bodies_[s].set->awake() : 0;
+      const int count = bodies_[s].liquid() ? bodies_[s].set->awake() : 0;
 #pragma omp parallel for schedule(static) num_threads(threads_)
       for (int p = 0; p < count; ++p) {
         double sum = c == 0 ? 0.0 : of.squares[p];
@@ -161,8 +156,8 @@ void VolumeCorrection::gather(Fields& fields) {
   }
 }
 
-template <class Geometry>
-double VolumeCorrection::correct(const Body& body, const Numbers& of) {
+template <class Geometry, class Liquid>
+double VolumeCorrection::correct(const Liquid& law, const Body& body, const Numbers& of) {
   ParticleSet& set = *body.set;
   return sums_.over(static_cast<std::size_t>(set.awake()), threads_, [&](std::size_t i, double& lost) {
     const int p = static_cast<int>(i);
@@ -177,7 +172,7 @@ double VolumeCorrection::correct(const Body& body, const Numbers& of) {
     Geometry::store_matrix(now, places, 0);
     for (int c = 0; c < Geometry::kMatrix; ++c) set.f[c].set(p, components[c]);
     const auto tau = Geometry::load_symmetric(set.tau, p);
-    lost += set.mass_of(p) * (body.fluid->elastic_energy(f, tau, j) - body.fluid->elastic_energy(now, tau, corrected));
+    lost += set.mass_of(p) * (law.elastic_energy(f, tau, j) - law.elastic_energy(now, tau, corrected));
   });
 }
 
@@ -193,7 +188,12 @@ void VolumeCorrection::momentum_gathered(StepContext& context) {
     find_fullness(context.fields);
     gather(context.fields);
     for (std::size_t s = 0; s < bodies_.size() && acts; ++s) {
-      if (bodies_[s].fluid != nullptr) taken_ += correct<Geometry>(bodies_[s], numbers_[s]);
+      std::visit(
+          [&](const auto& law) {
+            if constexpr (kTraitsOf<std::decay_t<decltype(law)>>.matter == Matter::liquid)
+              taken_ += correct<Geometry>(law, bodies_[s], numbers_[s]);
+          },
+          *bodies_[s].law);
     }
   });
   if (acts) waited_ = 0.0;

@@ -144,7 +144,7 @@ Plan make_plan(const SimulationDefinition& definition, const Forecast& forecast,
   Plan plan;
   plan.wanted = wanted;
   const double now = forecast.real_time_factor();
-  const double steps = forecast.cost.steps_per_second * 1e-9 * static_cast<double>(definition.time.sync);
+  const double steps = forecast.cost.steps_per_second * kNanosecond * static_cast<double>(definition.time.sync);
   const Pace today{steps};
   plan.reaches = now;
   if (plan.enough()) return plan;

@@ -42,7 +42,7 @@ Discretisation discretisation_of(const SimulationDefinition& definition) {
   Discretisation own{definition.grid.cell, definition.method.particles_per_direction, definition.method.precision,
                      definition.method.update, definition.time.cfl};
   if (own.update == UpdateScheme::implicit) {
-    own.step = std::min(definition.time.step.value_or(kImplicitStep), 1e-9 * static_cast<double>(definition.time.sync));
+    own.step = std::min(definition.time.step.value_or(kImplicitStep), seconds_of(definition.time.sync));
     own.falls = falls_of(own.step, own.cell, definition);
   }
   return own;

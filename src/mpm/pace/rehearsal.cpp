@@ -57,7 +57,7 @@ Rehearsal of_periods(const std::vector<Period>& periods, double all) {
 std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, int threads, std::optional<Isa> isa,
                                   double budget, const std::function<bool()>& stop, const WallClock& clock,
                                   bool with_tools) {
-  const double end = coarse.time.end / kTimeUnit, begun = clock();
+  const double end = coarse.time.end / kNanosecond, begun = clock();
   const auto stopped = [&] { return stop && stop(); };
   const auto over = [&] { return clock() - begun >= budget || stopped(); };
   SimulationOptions options;
@@ -102,7 +102,7 @@ std::optional<Rehearsal> rehearse(SimulationDefinition coarse, double coarser, i
   found.wall = clock() - begun;
   found.particle_step /= particles;
   if (tools) {
-    tools->look_ahead(*run, end * kTimeUnit);
+    tools->look_ahead(*run, end * kNanosecond);
     found.tools = tools->found();
   }
   return found;

@@ -46,7 +46,7 @@ bool StepTimer::after_step() {
 }
 
 std::optional<StepCost> StepTimer::time(Simulation& simulation) {
-  const double end = simulation.definition().time.end / kTimeUnit;
+  const double end = simulation.definition().time.end / kNanosecond;
   timing_ = true;
   steps_ = 0;
   begun_ = clock_();

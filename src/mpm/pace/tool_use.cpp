@@ -135,7 +135,7 @@ void ToolsInGround::look_at(Way& way, const Surface& surface, const Pose& pose, 
 }
 
 void ToolsInGround::look(const Simulation& simulation) {
-  const double now = static_cast<double>(simulation.time()) * kTimeUnit, passed = now - std::exchange(last_, now);
+  const double now = seconds_of(simulation.time()), passed = now - std::exchange(last_, now);
   for (std::size_t b = 0; b < ways_.size(); ++b) {
     const RigidBody& body = simulation.rigid_body(static_cast<int>(b));
     look_at(ways_[b], body.surface(), body.pose(), body.twist().angular.norm() * passed);
@@ -143,8 +143,7 @@ void ToolsInGround::look(const Simulation& simulation) {
 }
 
 void ToolsInGround::look_ahead(const Simulation& simulation, double end) {
-  const double from = static_cast<double>(simulation.time()) * kTimeUnit,
-               step = (end - from) / (kLooksAhead * kStepsOfLook);
+  const double from = seconds_of(simulation.time()), step = (end - from) / (kLooksAhead * kStepsOfLook);
   for (std::size_t b = 0; step > 0.0 && b < ways_.size(); ++b) {
     const RigidBody& body = simulation.rigid_body(static_cast<int>(b));
     if (body.free_motion() != nullptr) continue;

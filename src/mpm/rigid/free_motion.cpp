@@ -98,7 +98,7 @@ void FreeMotion::start(const Pose& pose, const Twist& twist) {
   rate_ = twist.angular;
   velocity_ = twist.linear + rate_.cross(centre_ - pose.position);
   inertia_ = inertia_at(pose.orientation);
-  initial_ = momentum();
+  account_.initial_momentum = momentum();
 }
 
 void FreeMotion::place(const Pose& pose) {
@@ -127,9 +127,9 @@ void FreeMotion::predict(const Pose& pose, const Twist& twist, const Vec3& gravi
   const Vec3 arm = centre_ - pose.position;
   const double mass = definition_.mass;
   const Vec3 weight = mass * gravity * dt;
-  gravity_.linear += weight;
+  account_.gravity.linear += weight;
   step_wrench_ = {wrench_.force * dt, (wrench_.torque - arm.cross(wrench_.force)) * dt};
-  applied_ += step_wrench_;
+  account_.wrench += step_wrench_;
 
   const Vec3 prescribed_change = prescribed_part(twist.linear - velocity_, 0);
   const Vec3 prescribed_turn = prescribed_part(twist.angular - rate_, 3);
@@ -163,10 +163,10 @@ void FreeMotion::end_increment() {
 }
 
 void FreeMotion::finish(const BodyMomentum& impulse, double loss) {
-  contact_ += impulse;
+  account_.contact += impulse;
   step_drive_.linear -= prescribed_part(impulse.linear, 0);
   step_drive_.angular += prescribed_part(inertia_ * (rate_ - kept_rate_) - impulse.angular, 3);
-  loss_ += loss;
+  account_.contact_loss += loss;
 }
 
 Twist FreeMotion::twist(const Pose& pose) const { return {velocity_ + rate_.cross(pose.position - centre_), rate_}; }
@@ -182,10 +182,10 @@ std::string FreeMotion::refused_pose() const {
 }
 
 Twist FreeMotion::advance(Pose& pose, const Twist& /*twist*/, double dt) {
-  drive_ += step_drive_;
+  account_.drive += step_drive_;
   const Vec3 mean = 0.5 * (start_velocity_ + velocity_), mean_rate = 0.5 * (start_rate_ + rate_);
-  wrench_work_ += step_wrench_.linear.dot(mean) + step_wrench_.angular.dot(mean_rate);
-  drive_work_ += step_drive_.linear.dot(mean) + step_drive_.angular.dot(mean_rate);
+  account_.wrench_work += step_wrench_.linear.dot(mean) + step_wrench_.angular.dot(mean_rate);
+  account_.drive_work += step_drive_.linear.dot(mean) + step_drive_.angular.dot(mean_rate);
 
   const Vec3 angular = inertia_ * rate_;
   Vec3 middle = rate_;
@@ -203,38 +203,24 @@ Twist FreeMotion::advance(Pose& pose, const Twist& /*twist*/, double dt) {
 
 FreeBodyReport FreeMotion::report(const std::string& name, const Vec3& gravity) const {
   FreeBodyReport report;
+  static_cast<FreeAccount&>(report) = account_;
   report.body = name;
   report.mass = definition_.mass;
   report.centre = centre_;
   report.momentum = momentum();
-  report.initial_momentum = initial_;
-  report.contact = contact_;
-  report.gravity = gravity_;
-  report.wrench = applied_;
-  report.drive = drive_;
   report.kinetic = 0.5 * (report.momentum.linear.dot(velocity_) + report.momentum.angular.dot(rate_));
   report.potential = -definition_.mass * gravity.dot(centre_);
-  report.wrench_work = wrench_work_;
-  report.drive_work = drive_work_;
-  report.contact_loss = loss_;
   return report;
 }
 
 void FreeMotion::serialise(StateArchive& archive) {
   archive.value("wrench_force", wrench_.force);
   archive.value("wrench_torque", wrench_.torque);
-  const auto serialise_momentum = [&archive](const std::string& name, BodyMomentum& momentum) {
-    archive.value(name + "_linear", momentum.linear);
-    archive.value(name + "_angular", momentum.angular);
-  };
-  serialise_momentum("initial", initial_);
-  serialise_momentum("contact", contact_);
-  serialise_momentum("gravity", gravity_);
-  serialise_momentum("applied", applied_);
-  serialise_momentum("drive", drive_);
-  archive.value("wrench_work", wrench_work_);
-  archive.value("drive_work", drive_work_);
-  archive.value("loss", loss_);
+  for (const auto& [name, count] : kFreeMomenta) {
+    archive.value(std::string(name) + "_linear", (account_.*count).linear);
+    archive.value(std::string(name) + "_angular", (account_.*count).angular);
+  }
+  for (const auto& [name, count] : kFreeEnergies) archive.value(name, account_.*count);
   // Values of the last step: what is reported at a sync point is as it left them.
   archive.value("centre", centre_);
   archive.value("velocity", velocity_);

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <utility>
 
+#include "mpm/math/nanoseconds.hpp"
+
 namespace mpm {
 
 namespace {
@@ -96,7 +98,7 @@ void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t 
   check(goal, "pose command");
   target_ = goal;
   arrival_ = arrival;
-  twist_ = twist_between(pose_, target_, 1e-9 * static_cast<double>(arrival - now));
+  twist_ = twist_between(pose_, target_, seconds_of(arrival - now));
   drive_ = Drive::pose;
 }
 
@@ -113,7 +115,7 @@ Twist RigidBody::twist_at(double time) const {
 void RigidBody::begin_step(double time, double dt) {
   if (drive_ == Drive::functions) {
     twist_ = twist_at(time + 0.5 * dt);
-  } else if (drive_ == Drive::pose && 1e-9 * static_cast<double>(arrival_) - time < (1.0 - 1e-6) * dt) {
+  } else if (drive_ == Drive::pose && seconds_of(arrival_) - time < (1.0 - 1e-6) * dt) {
     // Arrived: rest. An arrival between two sync points lies within a step: be there at its end. (Less than a millionth
     // short is rounding of the clock, and the twist as it is arrives.)
     twist_ = twist_between(pose_, target_, dt);

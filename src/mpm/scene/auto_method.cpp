@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mpm/choice/method_choice.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/expected_motion.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
@@ -19,7 +20,6 @@ using choice::Preference;
 using choice::Standing;
 
 constexpr double kLargeStrain = 0.02;  // as in auto_method.hpp
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTurned = 10.0 * kDegree;
 const char* const kDefault = "ugimp/usavg/flip";
 
@@ -63,7 +63,7 @@ bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const s
   const MethodDefinition& said = definition.method;
   if (measured.precision != Precision::float64) return false;
   if (asked.keep_shape ? measured.shape != said.shape
-                       : measured.shape == ShapeKind::dirac || (flows && measured.shape != ShapeKind::ugimp)) {
+                       : traits_of(measured.shape).point() || (flows && measured.shape != MethodDefinition().shape)) {
     return false;
   }
   // The study's problems are elastic, so a flowing material keeps the transfer that is proven for it.

@@ -58,9 +58,7 @@ void check_periodic(const Value& value, int axis, const Scene& scene) {
 /// Turns a region of space into the surface around it, so that nodes on its faces are included.
 void set_region(const Region& region, const Scene& scene, RigidBodyDefinition& body) {
   const GeometryKind geometry = scene.definition.geometry;
-  double smallest = kInfinity;
-  for (const int axis : axes_of(scene)) smallest = std::min(smallest, scene.definition.grid.cell[axis]);
-  const double margin = kOnFace * smallest;
+  const double margin = kOnFace * scene.definition.smallest_cell();
   const std::vector<int> beside = axes_beside(geometry);
   if (region.kind == Region::Kind::box) {
     Vec3 size = region.box.size() + Vec3::Constant(2.0 * margin);

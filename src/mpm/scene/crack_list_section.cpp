@@ -7,6 +7,7 @@
 
 #include "height_file.hpp"
 #include "mpm/crack/chain_shape.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/math/input_file.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/rigid/surface.hpp"
@@ -60,7 +61,7 @@ std::vector<Vec2> read_arc(const Value& value, double segment) {
   const double from = map.at("from").number(kAngle), to = map.at("to").number(kAngle);
   const double turn = std::abs(to - from);
   if (!(turn > 0.0)) map.at("to").fail("the arc ends where it begins; write another angle");
-  if (turn > 2.0 * M_PI * (1.0 + 1e-12)) map.at("to").fail("the arc goes round more than once; 360 deg at most");
+  if (turn > 2.0 * kPi * (1.0 + 1e-12)) map.at("to").fail("the arc goes round more than once; 360 deg at most");
   check_length(value, radius * turn, segment);
   return arc_points(centre, radius, from, to, segment);
 }

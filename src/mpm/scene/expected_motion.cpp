@@ -7,6 +7,7 @@
 
 #include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kFlowStrain = 1.0;     // strain of a material that deforms without end
 constexpr double kPressedStrain = 0.1;  // strain where the scene alone does not determine it
-constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
+constexpr double kQuarterTurn = 0.5 * kPi;
 constexpr int kSamples = 5;  // points along an axis at which a body's largest speed is sought
 
 /// Initial motion, from the velocity at points spread over the body's bounds.

@@ -15,8 +15,6 @@
 namespace mpm {
 namespace {
 
-constexpr double kSyncUnit = 1e-9;
-
 std::string geometry_text(const SimulationDefinition& definition) {
   if (definition.geometry == GeometryKind::line) return fmt::format("line, {:g} m^2 across", definition.area);
   std::string text = spoken_name(definition.geometry);
@@ -97,7 +95,7 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
 void add_steps(const Scene& scene, const SimulationDefinition& built, std::string& text) {
   const TimeDefinition& time = built.time;
   const WaveStep wave = wave_step(scene);
-  const double sync = static_cast<double>(time.sync) * kSyncUnit;
+  const double sync = seconds_of(time.sync);
   double limit = wave.dt;
   std::string reason =
       fmt::format("the wave in {} ({:.5g} m/s) crosses {:g} of a cell", wave.material, wave.speed, time.cfl);

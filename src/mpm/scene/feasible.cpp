@@ -106,7 +106,7 @@ void check_steps(const Scene& scene) {
   const TimeDefinition& time = scene.definition.time;
   const WaveStep wave = wave_step(scene);
   const bool chosen = time.step && *time.step < wave.dt;
-  const double dt = chosen ? *time.step : wave.dt, sync = 1e-9 * static_cast<double>(time.sync);
+  const double dt = chosen ? *time.step : wave.dt, sync = seconds_of(time.sync);
   if (std::ceil(sync / dt) <= kMostSteps) return;
   const std::string steps =
       fmt::format("{:.3g} steps of {:.3g} s in each sync period of {:g} s; at most {:.0e} are taken",

@@ -34,7 +34,7 @@ double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geom
   const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
   const double positions = 8.0 * dim * (strains_after_motion(method.update) ? 2 : 1);
   // As in mechanics/continuum.hpp: the domain at the start of a step, and APIC's matrix.
-  int kept = follows_deformation(method.shape) ? (method.shape == ShapeKind::ugimp_stretch ? dim : dim * dim) : 0;
+  int kept = traits_of(method.shape).stored(dim);
   if (method.transfer.kind == TransferKind::apic) kept += dim * dim;
   if (axisymmetric(geometry)) kept += 1;  // mass of the ring
   const double id = 4.0;

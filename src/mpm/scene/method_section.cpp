@@ -70,6 +70,20 @@ std::size_t read_name(const Value& value, const std::array<const char*, N>& name
   return found < N ? found : aliases[found - N].second;
 }
 
+/// The shape function by its name, or by its other name.
+ShapeKind read_shape(const Value& value) {
+  std::vector<std::string> words;
+  std::vector<ShapeKind> kinds;
+  for (const auto name : {&ShapeTraits::name, &ShapeTraits::other_name}) {
+    for (const ShapeTraits& shape : kShapeTraits) {
+      if (shape.*name == nullptr) continue;
+      words.emplace_back(shape.*name);
+      kinds.push_back(shape.kind);
+    }
+  }
+  return kinds[value.choice(words)];
+}
+
 Transfer read_transfer(const Value& value) {
   Transfer transfer;
   if (value.is_text()) {
@@ -246,12 +260,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
   const auto shape = map.find("shape");
-  if (shape) {
-    const auto index = [](ShapeKind kind) { return static_cast<std::size_t>(kind); };
-    method.shape = static_cast<ShapeKind>(read_name(
-        *shape, kShapeNames,
-        {{"classic", index(ShapeKind::dirac)}, {"gimp", index(ShapeKind::ugimp)}, {"lcpdi", index(ShapeKind::cpdi)}}));
-  }
+  if (shape) method.shape = read_shape(*shape);
   const auto update = map.find("update");
   if (update) {
     method.update = static_cast<UpdateScheme>(

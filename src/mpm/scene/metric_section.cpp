@@ -42,9 +42,9 @@ TimeWindow read_window(const Value& value, const TimeDefinition& time) {
     value.fail(
         fmt::format("to {:g} s is after the end of the run, {:g} s; end it there or earlier", window.to, time.end));
   }
-  if (window.to - window.from < 1e-9 * static_cast<double>(time.sync)) {
+  if (window.to - window.from < seconds_of(time.sync)) {
     value.fail(fmt::format("it is shorter than time.sync, {:g} s, and values are of sync points; make it longer",
-                           1e-9 * static_cast<double>(time.sync)));
+                           seconds_of(time.sync)));
   }
   return window;
 }

@@ -13,12 +13,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kNanosecond = 1e-9;
 constexpr double kShortestEnd = 100.0 * kNanosecond;  // a hundred sync points of the shortest period
 constexpr double kLongest = 1e9;                      // [s], 32 years; 64 bits of nanoseconds last 292 years
 constexpr std::int64_t kMostSync = 10'000'000;        // [ns], the longest that a command waits by default
-
-double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }  // rounds once
 
 /// Reads a time of whole nanoseconds.
 std::int64_t read_nanoseconds(const Value& value) {
@@ -84,7 +81,7 @@ void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
 void choose_periods(const std::optional<Value>& sync_key, const std::optional<Value>& period_key,
                     const std::optional<Value>& first_key, Scene& scene) {
   TimeDefinition& time = scene.definition.time;
-  const std::int64_t end_ns = std::llround(time.end * 1e9);
+  const std::int64_t end_ns = nanoseconds_of(time.end);
   std::int64_t period = 0;
   if (period_key) {
     period = read_nanoseconds(*period_key);
@@ -96,14 +93,15 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
     time.sync = read_nanoseconds(*sync_key);
     if (first % time.sync != 0) {
       first_key->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
-                                  seconds(first), seconds(time.sync),
-                                  seconds((first + time.sync - 1) / time.sync * time.sync)));
+                                  nearest_seconds(first), nearest_seconds(time.sync),
+                                  nearest_seconds((first + time.sync - 1) / time.sync * time.sync)));
     }
     if (period % time.sync != 0) {
       const std::int64_t parts = std::max<std::int64_t>(1, (period + time.sync / 2) / time.sync);
       if (period_key) {
         period_key->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
-                                     seconds(period), seconds(time.sync), seconds(parts * time.sync)));
+                                     nearest_seconds(period), nearest_seconds(time.sync),
+                                     nearest_seconds(parts * time.sync)));
       }
       period = parts * time.sync;
     }
@@ -116,23 +114,25 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
       first_key->fail(
           fmt::format("{:.12g} s and the period of {:.12g} s share no sync period of about {:.9g} s; write "
                       "times that are multiples of one",
-                      seconds(first), seconds(period), seconds(limit)));
+                      nearest_seconds(first), nearest_seconds(period), nearest_seconds(limit)));
     }
     if (time.sync == 0) {
       period_key->fail(fmt::format("{:.12g} s cannot be divided into sync periods of about {:.9g} s; write {:.12g} s",
-                                   seconds(period), seconds(limit), seconds(round_down(static_cast<double>(period)))));
+                                   nearest_seconds(period), nearest_seconds(limit),
+                                   nearest_seconds(round_down(static_cast<double>(period)))));
     }
-    scene.choices.emplace_back("time.sync",
-                               fmt::format("{:.9g} s: the largest period up to {:.9g} s that divides output.period{}",
-                                           seconds(time.sync), seconds(limit), first > 0 ? " and output.first" : ""));
+    scene.choices.emplace_back(
+        "time.sync",
+        fmt::format("{:.9g} s: the largest period up to {:.9g} s that divides output.period{}",
+                    nearest_seconds(time.sync), nearest_seconds(limit), first > 0 ? " and output.first" : ""));
   }
   if (!period_key) {
-    scene.choices.emplace_back("output.period", fmt::format("{:.9g} s{}", seconds(period),
+    scene.choices.emplace_back("output.period", fmt::format("{:.9g} s{}", nearest_seconds(period),
                                                             time.end > 0.0 ? ": 50 to 125 snapshots to the end" : ""));
   }
-  scene.output.period = seconds(period);
+  scene.output.period = nearest_seconds(period);
   scene.output.period_chosen = !period_key;
-  scene.output.first = seconds(first);
+  scene.output.first = nearest_seconds(first);
 }
 
 /// Reads a quantity by its name, or {quantity: NAME, body: NAME}.
@@ -171,7 +171,7 @@ void read_global(const Map& map, Scene& scene) {
   const auto period = map.find("global_period");
   if (!period) return;
   if (scene.output.global.empty()) period->fail("there is no output.global whose period this is; add a list of names");
-  scene.output.global_period = seconds(read_nanoseconds(*period));
+  scene.output.global_period = nearest_seconds(read_nanoseconds(*period));
 }
 
 /// To be called when the sync period is known.
@@ -181,8 +181,8 @@ void check_global_period(const Map& map, Scene& scene) {
   const std::int64_t time = read_nanoseconds(*period), sync = scene.definition.time.sync;
   if (time % sync == 0) return;
   const std::int64_t parts = std::max<std::int64_t>(1, (time + sync / 2) / sync);
-  period->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s", seconds(time),
-                           seconds(sync), seconds(parts * sync)));
+  period->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
+                           nearest_seconds(time), nearest_seconds(sync), nearest_seconds(parts * sync)));
 }
 
 }  // namespace

@@ -48,8 +48,7 @@ std::string resumed_difference(const Scene& scene, const std::string& recorded) 
   if (std::string difference = state_difference(scene.text, recorded); !difference.empty()) return difference;
   const std::int64_t here = scene.definition.time.sync, there = sync_of(recorded, scene.path);
   if (here == there) return {};
-  return fmt::format("time.sync is {:.9g} s there and {:.9g} s here", 1e-9 * static_cast<double>(there),
-                     1e-9 * static_cast<double>(here));
+  return fmt::format("time.sync is {:.9g} s there and {:.9g} s here", seconds_of(there), seconds_of(here));
 }
 
 Scene with_recorded_sync(Scene scene, const std::string& recorded) {
@@ -57,8 +56,7 @@ Scene with_recorded_sync(Scene scene, const std::string& recorded) {
   const std::int64_t there = sync_of(recorded, scene.path);
   if (scene.definition.time.sync == there || says_sync(YAML::Load(scene.text))) return scene;
   const double end = scene.definition.time.end;
-  Scene synced =
-      parse_scene(scene.text, scene.path, {fmt::format("time.sync={:.9f}", 1e-9 * static_cast<double>(there))});
+  Scene synced = parse_scene(scene.text, scene.path, {fmt::format("time.sync={:.9f}", seconds_of(there))});
   synced.definition.time.end = end;
   return synced;
 }

@@ -21,7 +21,7 @@ constexpr double kRoundOff = 1e-9;
 void look_at_end(const Scene& scene, std::vector<std::string>& warnings) {
   const TimeDefinition& time = scene.definition.time;
   if (!(time.end > 0.0)) return;
-  const double sync = 1e-9 * static_cast<double>(time.sync), periods = time.end / sync;
+  const double sync = seconds_of(time.sync), periods = time.end / sync;
   if (std::abs(periods - std::round(periods)) <= std::max(kRoundOff * periods, 1e-6)) return;
   warnings.push_back(
       fmt::format("the run goes on to {:.12g} s, the first sync point after its end at {:.12g} s: sync points are "
@@ -70,8 +70,7 @@ void look_at_speeds(const Scene& scene, std::vector<std::string>& warnings) {
 /// goes to zero, it grows without bound.
 void look_at_spray(const Scene& scene, std::vector<std::string>& warnings) {
   const MethodDefinition& method = scene.definition.method;
-  const bool spline = method.shape == ShapeKind::bspline2 || method.shape == ShapeKind::bspline3;
-  if (!spline || method.transfer.kind != TransferKind::apic) return;
+  if (!traits_of(method.shape).spline() || method.transfer.kind != TransferKind::apic) return;
   for (const BodyDefinition& body : scene.bodies) {
     if (traits_of(material_of(body, scene)).matter != Matter::liquid) continue;
     warnings.push_back(fmt::format(

@@ -101,7 +101,7 @@ std::string asymmetry_of_tool(const RigidBodyDefinition& body, double plane, dou
 /// either side is not seen to be that of the other.
 std::string asymmetry_of_quantity(const QuantityDefinition& quantity, const Scene& scene, double plane,
                                   double tolerance, int axis) {
-  const std::string start = fmt::format("transport.{}: ", kQuantityNames[static_cast<std::size_t>(quantity.quantity)]);
+  const std::string start = fmt::format("transport.{}: ", traits_of(quantity.quantity).name);
   const std::string by_hand = "; model the half by hand, with a face `symmetry`";
   for (const auto& [body, initial] : quantity.initial) {
     if (initial.uses_place(axis)) return start + "its start differs on the two sides" + by_hand;

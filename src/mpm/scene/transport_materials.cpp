@@ -174,7 +174,7 @@ void add_transport_keys(const Value& material, const Map& root, std::vector<std:
       {"biot", "storage", "permeability", "viscosity", "fluid_density"}};
   const auto section = root.find("transport");
   for (int q = 0; q < kQuantities; ++q) {
-    if (section && section->is_map() && section->node()[kQuantityNames[q]].IsDefined()) {
+    if (section && section->is_map() && section->node()[kTransported[q].name].IsDefined()) {
       keys.insert(keys.end(), kKeys[q].begin(), kKeys[q].end());
       continue;
     }
@@ -185,7 +185,7 @@ void add_transport_keys(const Value& material, const Map& root, std::vector<std:
           .fail(
               fmt::format("it is a constant of {}, which the run does not carry; add transport: {{{}: {{}}}}, or leave "
                           "it out",
-                          kQuantityNames[q], kQuantityNames[q]));
+                          kTransported[q].name, kTransported[q].name));
     }
   }
 }

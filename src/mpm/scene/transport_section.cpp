@@ -204,9 +204,11 @@ void read_quantity(const Value& value, const Map& root, Transported kind, Scene&
 void read_transport(const Map& root, Scene& scene) {
   const auto section = root.find("transport");
   if (!section) return;
-  const Map map(*section, {kQuantityNames.begin(), kQuantityNames.end()});
+  std::vector<std::string> names;
+  for (const TransportedTraits& one : kTransported) names.emplace_back(one.name);
+  const Map map(*section, names);
   for (int q = 0; q < kQuantities; ++q) {
-    if (const auto quantity = map.find(kQuantityNames[q])) {
+    if (const auto quantity = map.find(kTransported[q].name)) {
       read_quantity(*quantity, root, static_cast<Transported>(q), scene);
     }
   }

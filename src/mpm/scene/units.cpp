@@ -10,6 +10,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/math/odd_characters.hpp"
 
@@ -57,8 +58,8 @@ const std::array kUnits = {
     NamedUnit{"Hz", {1.0, kRate}},
     NamedUnit{"kHz", {1e3, kRate}},
     NamedUnit{"rad", {1.0, kAngle}},
-    NamedUnit{"deg", {M_PI / 180.0, kAngle}},
-    NamedUnit{"rpm", {M_PI / 30.0, kAngularRate}},
+    NamedUnit{"deg", {kPi / 180.0, kAngle}},
+    NamedUnit{"rpm", {kPi / 30.0, kAngularRate}},
     NamedUnit{"N", {1.0, kForce}},
     NamedUnit{"kN", {1e3, kForce}},
     NamedUnit{"MN", {1e6, kForce}},

@@ -98,8 +98,8 @@ bool Simulation::State::step(double start, double dt, bool more) {
 void Simulation::State::run_period() {
   // Implicit steps resolve motion, whose limit is its own.
   const double cfl = definition.method.update == UpdateScheme::implicit ? 1.0 : definition.time.cfl;
-  const double begin = static_cast<double>(time) * kNanosecond;
-  const double period = static_cast<double>(definition.time.sync) * kNanosecond, end = begin + period;
+  const double begin = seconds_of(time);
+  const double period = seconds_of(definition.time.sync), end = begin + period;
   limit = step_limit(previous_limit, material_limit);
   EqualSteps steps_ahead = equal_steps(period, limit, begin);
   StepLimit seen = material_limit;
@@ -160,15 +160,15 @@ void Simulation::advance(std::chrono::steady_clock::duration late) {
   const auto started = std::chrono::steady_clock::now();
   s.failed = true;  // until the period is done
   SweepBudget* budget = s.services.budget.get();
-  if (budget != nullptr) budget->begin_period(s.steps.steps, (s.time + s.definition.time.sync) * kNanosecond, late);
+  if (budget != nullptr) budget->begin_period(s.steps.steps, seconds_of(s.time + s.definition.time.sync), late);
   try {
     s.run_period();
   } catch (const ModuleError& error) {
     s.end_run(error.what());
   } catch (const RigidError& error) {
-    s.end_run(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
+    s.end_run(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), seconds_of(s.time)));
   } catch (const FunctionError& error) {
-    s.end_run(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}", s.time * kNanosecond,
+    s.end_run(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}", seconds_of(s.time),
                           error.what()));
   }
   s.failed = false;

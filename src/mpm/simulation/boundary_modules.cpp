@@ -41,7 +41,7 @@ void add_axis(RunParts& parts) {
   if (definition.grid.min.x() == 0.0) {
     parts.add_in_fields([&] { return std::make_unique<Axis>(axis.ghosts); });
   }
-  const bool to_zero = definition.method.shape == ShapeKind::qcpdi || axis.domains == AxisDomains::whole;
+  const bool to_zero = traits_of(definition.method.shape).massless_at_axis || axis.domains == AxisDomains::whole;
   if (axis.functions == AxisFunctions::weighted && to_zero) {
     parts.add_in_fields([&] { return std::make_unique<MasslessNodes>(definition.gravity); });
   }

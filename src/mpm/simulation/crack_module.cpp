@@ -97,6 +97,7 @@ std::vector<CrackTipReport> Simulation::crack_tips() const {
     const Vec2 place = crack.chain.points()[crack.chain.point_at(tip.end)].place;
     const Vec2 direction = crack.chain.direction(tip.end);
     CrackTipReport report;
+    static_cast<TipNumbers&>(report) = tip;
     report.crack = crack.definition.name;
     report.end = tip.end == 0 ? "start" : "end";
     report.place = Vec3(place[0], 0.0, place[1]);
@@ -104,16 +105,6 @@ std::vector<CrackTipReport> Simulation::crack_tips() const {
     report.state = tip.looked ? describe(tip.status) : "not looked at yet";
     report.growth = tip.why;
     if (tip.material >= 0) report.material = state_->definition.materials[tip.material].name;
-    report.j = tip.j;
-    report.zone = tip.zone;
-    report.k_one = tip.k.one;
-    report.k_two = tip.k.two;
-    report.opening = tip.opening.normal;
-    report.slip = tip.opening.shear;
-    report.grown = tip.grown;
-    report.speed = tip.speed;
-    report.angle = tip.angle;
-    report.growths = tip.growths;
     report.has_j = !tip.looked || tip.status == ContourStatus::complete;
     report.stopped = stage->tip_stopped(tip);
     reports.push_back(std::move(report));
@@ -129,7 +120,7 @@ void add_cracks(RunParts& parts) {
   auto made = std::make_unique<CrackStage::Parts>();
   made->sets = &parts.sets;
   made->masses = parts.make_transfer(definition.method.shape);
-  made->sync = 1e-9 * static_cast<double>(definition.time.sync);
+  made->sync = seconds_of(definition.time.sync);
   for (const CrackDefinition& crack : asked.list) {
     Crack one{
         crack, Chain(crack.points, crack.ends, crack.fixed), {}, crack.faces.law.kind != ContactLaw::Kind::one_field};

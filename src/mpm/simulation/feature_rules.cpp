@@ -116,7 +116,7 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
     {Feature::plane_stress, "plane stress", "geometry",
      [](D d, int) { return found_if(d.geometry == GeometryKind::plane_stress); }},
     {Feature::point_particles, "particles that are points (dirac)", "method.shape",
-     [](D d, int) { return found_if(d.method.shape == ShapeKind::dirac); }},
+     [](D d, int) { return found_if(traits_of(d.method.shape).point()); }},
     {Feature::pore_pressure, "water in pores", "transport.pore_pressure",
      [](D d, int) { return found_if(d.transport.find(Transported::pore_pressure) != nullptr); }},
     {Feature::ranks, "several processes", "method.update", [](D, int ranks) { return found_if(ranks > 1); }},

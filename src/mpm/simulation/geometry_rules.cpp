@@ -10,7 +10,6 @@
 namespace mpm {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
 constexpr double kNotable = 1.0 * kDegree;  ///< a difference of friction angles
 
 const char* const kOtherMatch = "leave match out, or write mohr_coulomb or plane_strain";

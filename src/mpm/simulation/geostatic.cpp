@@ -194,7 +194,7 @@ void Simulation::State::settle() {
   Simulation run(std::move(part), std::move(options));
   State& r = *run.state_;
   const double g = definition.gravity.norm(), lightest = mpm::least_mass(r.sets, ranks.get(), true);
-  const double period = static_cast<double>(definition.time.sync) * 1e-9;
+  const double period = seconds_of(definition.time.sync);
   Unbalanced residual;
   double before = 0.0, moves_for = 0.0;
   std::optional<double> creeps;  // its mean acceleration over g

@@ -272,7 +272,7 @@ double GlobalQuantities::value_of(Term& term, const std::string& name, double in
 
 const std::vector<double>& GlobalQuantities::read() {
   if (!fields_.empty()) simulation_.read_fields(fields_, columns_);
-  const double now = static_cast<double>(simulation_.time()) * 1e-9;
+  const double now = seconds_of(simulation_.time());
   const double interval = last_ < 0.0 ? 0.0 : now - last_;
   const Simulation::State& state = *simulation_.state_;
   for (std::size_t k = 0; k < terms_.size(); ++k) {

@@ -24,7 +24,7 @@ Fault method_part(const SimulationDefinition& d) {
     return MethodFault{"method.axis",
                        "implicit steps have rings that end at the axis; leave domains, functions and ghosts out"};
   }
-  if (method.shape != ShapeKind::ugimp)
+  if (!traits_of(method.shape).takes_implicit)
     return MethodFault{"method.shape", "implicit steps have ugimp alone; leave it out"};
   const Transfer& transfer = method.transfer;
   const bool plain = transfer.kind == TransferKind::flip && transfer.mixed == 1 && transfer.every == 1;

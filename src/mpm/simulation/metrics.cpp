@@ -138,7 +138,7 @@ double Simulation::body_value(int body, const std::string& name) const {
 
 // As reports of contact have them: what was given over the time it took, torque about the origin as it moves.
 void Simulation::State::find_wrenches() {
-  const double now = kNanosecond * static_cast<double>(time);
+  const double now = seconds_of(time);
   const bool about_axis = axisymmetric(definition.geometry);
   for (std::size_t b = 0; b < wrenches.size(); ++b) {
     for (ContactReporter* reporter : reporters) {
@@ -163,7 +163,7 @@ std::vector<NamedNumber> Simulation::numbers() const { return state_->numbers();
 
 void Simulation::sample_metrics() {
   State& s = *state_;
-  const double now = 1e-9 * static_cast<double>(s.time);
+  const double now = seconds_of(s.time);
   s.find_wrenches();
   std::vector<double> values;
   for (std::size_t m = 0; m < s.definition.metrics.size(); ++m) {

@@ -213,14 +213,14 @@ void Simulation::State::serialise(StateArchive& archive) {
   }
   if (archive.merging()) {
     if (over) over->divide(sets);
-    sort(1e-9 * static_cast<double>(time));
+    sort(seconds_of(time));
   }
   if (archive.reading()) failed = false;
 }
 
 void Simulation::serialise(StateArchive& archive) {
   state_->serialise(archive);
-  serialise_metrics(archive, state_->definition.metrics, 1e-9 * static_cast<double>(state_->time), state_->rates);
+  serialise_metrics(archive, state_->definition.metrics, seconds_of(state_->time), state_->rates);
   for (const MetricDefinition& metric : state_->definition.metrics) {
     if (!archive.reading() || find_body(metric.body) >= 0 || !metric.number.empty() || !metric.formula.empty())
       continue;

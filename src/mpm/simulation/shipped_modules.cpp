@@ -1,6 +1,7 @@
 #include "shipped_modules.hpp"
 
 #include "mpm/crack/crack_stage.hpp"
+#include "mpm/transport/transport.hpp"
 
 namespace mpm {
 namespace {
@@ -26,8 +27,7 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_leaving},
       {add_axis},
       {add_damping, {{"alpha", "1/s"}}},
-      {add_transport,  // before contact, which tells it of heat
-       {{"temperature content", "J"}, {"concentration content", "m^3"}, {"pore_pressure content", "m^3"}}},
+      {add_transport, transport_numbers()},  // before contact, which tells it of heat
       {add_rigid_motion},
       {add_tool_sides},  // before contact, which asks it
       {add_absorbing},

@@ -33,13 +33,13 @@ std::string tool_at(const std::vector<RigidBody>& bodies, const Vec3& point, dou
 
 /// Advice on what to change first if the method is one that is known to fail (doc/methods.md, doc/contact.md).
 std::string known_to_fail(const SimulationDefinition& definition) {
-  const ShapeKind shape = definition.method.shape;
+  const ShapeTraits& shape = traits_of(definition.method.shape);
   std::string text;
-  if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) {
+  if (shape.shears()) {
     text += fmt::format(
         "take method.shape: ugimp where material is sheared far, since the corners of {}'s domains run "
         "apart there; or ",
-        shape_name(shape));
+        shape.name);
   }
   if (definition.contact.normals.method == NormalMethod::own) {
     text += "take contact.normals: average, since 'own' keeps neither momentum nor energy; or ";
@@ -191,7 +191,7 @@ ContactReport Simulation::take_contact(int body) {
   const RigidBody& of = state_->bodies.at(body);
   for (ContactReporter* reporter : state_->reporters) {
     ContactLedger* ledger = reporter->ledger_of(of);
-    if (ledger != nullptr) return ledger->read(static_cast<double>(state_->time) * kNanosecond);
+    if (ledger != nullptr) return ledger->read(seconds_of(state_->time));
   }
   throw DefinitionError(fmt::format("rigid body '{}' has no contact with the material", of.name()));
 }
@@ -199,7 +199,7 @@ ContactReport Simulation::take_contact(int body) {
 std::vector<PairReport> Simulation::take_pairs() {
   std::vector<PairReport> reports;
   for (ContactReporter* reporter : state_->reporters) {
-    reporter->read_pairs(static_cast<double>(state_->time) * kNanosecond, reports);
+    reporter->read_pairs(seconds_of(state_->time), reports);
   }
   return reports;
 }

@@ -16,8 +16,6 @@
 
 namespace mpm {
 
-inline constexpr double kNanosecond = 1e-9;  ///< [s]
-
 /// The straight line with the least squares through points that come one by one.
 class LineFit {
  public:

@@ -106,7 +106,7 @@ double largest_shear(const ParticleSet& set, const GridLayout& layout, int threa
 
 /// Largest shear of a set's domains where it shortens steps, else 0.
 double shear_of(const SimulationDefinition& definition, const ParticleSet& set, const GridLayout& layout, int threads) {
-  if (definition.method.shape != ShapeKind::cpdi || layout.dim() == 1 || set.awake() == 0) return 0.0;
+  if (!traits_of(definition.method.shape).shear_limits_step || layout.dim() == 1 || set.awake() == 0) return 0.0;
   return layout.dim() == 2 ? largest_shear<2>(set, layout, threads) : largest_shear<3>(set, layout, threads);
 }
 
@@ -150,7 +150,7 @@ StepLimit Simulation::State::survey_material() const {
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     double shear = shear_of(definition, sets[s], layout(), threads);
-    if (over && definition.method.shape == ShapeKind::cpdi) over->ranks().largest(&shear, 1);
+    if (over && traits_of(definition.method.shape).shear_limits_step) over->ranks().largest(&shear, 1);
     if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
@@ -166,8 +166,8 @@ StepLimit Simulation::State::survey_material() const {
 }
 
 StepLimit Simulation::State::step_limit(const StepLimit& before, const StepLimit& now) const {
-  const PeriodAhead period{1e-9 * static_cast<double>(time), 1e-9 * static_cast<double>(definition.time.sync),
-                           definition.time.cfl, layout().smallest_cell()};
+  const PeriodAhead period{seconds_of(time), seconds_of(definition.time.sync), definition.time.cfl,
+                           layout().smallest_cell()};
   StepLimit limit = now;
   // Some material is awake, and its waves set the limit.
   const bool known = now.by != nullptr && before.by != nullptr && definition.method.update != UpdateScheme::implicit;

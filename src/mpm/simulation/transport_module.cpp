@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/material/moduli.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/transport/face_flux.hpp"
@@ -83,8 +84,8 @@ std::unique_ptr<TransportedField> make_field(const QuantityDefinition& quantity,
   try {
     return std::make_unique<TransportedField>(quantity, shared, parts.make_transfer(parts.definition.method.shape));
   } catch (const FunctionError& error) {
-    throw DefinitionError(fmt::format("transport.{}.initial, or one of its values: {}",
-                                      kQuantityNames[static_cast<int>(quantity.quantity)], error.what()));
+    throw DefinitionError(
+        fmt::format("transport.{}.initial, or one of its values: {}", traits_of(quantity.quantity).name, error.what()));
   }
 }
 
@@ -93,7 +94,7 @@ void couple_heat(TransportedField& temperature, RunParts& parts, GeometryKind ge
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
     const MaterialDefinition& material = find_material(parts.definition, parts.definition.bodies[s]);
     HeatOfSet of{&parts.laws[s], temperature.material(static_cast<int>(s)), material.density, 0.0};
-    if (temperature.definition().compression_heat) of.bulk = bulk_modulus(material.law);
+    if (temperature.definition().compression_heat) of.bulk = constant_bulk_modulus(material);
     heat.push_back(std::move(of));
   }
   auto plastic = std::make_unique<PlasticHeat>(parts.sets, heat);

@@ -28,7 +28,7 @@ bool is_used(const MaterialDefinition& material, const std::vector<std::string>&
 
 /// Longest step that mechanics takes at the start [s].
 double longest_step(const SimulationDefinition& d, const std::vector<std::string>& used, double cell) {
-  double dt = 1e-9 * static_cast<double>(d.time.sync);
+  double dt = seconds_of(d.time.sync);
   if (d.time.step) dt = std::min(dt, *d.time.step);
   const QuantityDefinition* pores = d.transport.find(Transported::pore_pressure);
   for (std::size_t m = 0; m < d.materials.size(); ++m) {
@@ -68,7 +68,7 @@ TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& q
                       const std::vector<std::string>& used, double cell, double dt) {
   TransportWork work;
   work.step = dt;
-  work.quantity = kQuantityNames[static_cast<std::size_t>(quantity.quantity)];
+  work.quantity = traits_of(quantity.quantity).name;
   double capacity = std::numeric_limits<double>::infinity();
   std::string conductor;
   for (std::size_t m = 0; m < std::min(d.materials.size(), quantity.materials.size()); ++m) {
@@ -93,7 +93,7 @@ TransportWork work_of(const SimulationDefinition& d, const QuantityDefinition& q
   double longest = longest_update(cell, capacity, conductance);
   const double stable = stable_step(cell, work.diffusivity);
   bool by_surface = longest < stable;
-  if (d.method.shape == ShapeKind::dirac && kOfPoints * stable < longest) {
+  if (traits_of(d.method.shape).point() && kOfPoints * stable < longest) {
     longest = kOfPoints * stable;
     by_surface = false;
   }
@@ -122,7 +122,7 @@ std::string transport_warning(const SimulationDefinition& d, const std::vector<s
     if (own.stages > most.stages) most = own;
   }
   if (most.stages < kManyStages) return {};
-  const double sync = 1e-9 * static_cast<double>(d.time.sync);
+  const double sync = seconds_of(d.time.sync);
   const std::string text =
       fmt::format("{}: a step of {:.3g} s takes {:.3g} stages of it", most.cause, most.step, most.stages);
   if (most.stages <= kMostStages && std::ceil(sync / most.step) * most.stages <= kMostSteps) {

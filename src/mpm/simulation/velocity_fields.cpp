@@ -66,10 +66,9 @@ std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields) {
 
 Fields make_fields(const SimulationDefinition& definition, int count) {
   const GridLayout layout = layout_of(definition);
-  const ShapeKind shape = definition.method.shape;
   Fields fields = make_fields(layout, count);
   for (auto& grid : fields) {
-    if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
+    grid->wall_layers = traits_of(definition.method.shape).wall_layers();
     for (int face = 0; face < 2 * layout.dim(); ++face) {
       const WallKind kind = definition.walls[2 * layout.axis(face / 2) + face % 2].kind;
       grid->has_wall[face] = kind != WallKind::none && kind != WallKind::periodic;

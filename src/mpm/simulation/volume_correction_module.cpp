@@ -1,6 +1,5 @@
 // The fluids' volume correction as a module.
 #include <memory>
-#include <variant>
 
 #include "mpm/mechanics/volume_correction.hpp"
 #include "mpm/simulation/definition.hpp"
@@ -13,10 +12,8 @@ void add_volume_correction(RunParts& parts) {
   std::vector<VolumeCorrection::Body> bodies;
   bool any = false;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
-    const auto* fluid = std::get_if<NewtonianFluid>(&parts.laws[s]);
-    const double density = std::visit([](const auto& law) { return law.density(); }, parts.laws[s]);
-    bodies.push_back({&parts.sets[s], fluid, density});
-    any = any || fluid != nullptr;
+    bodies.push_back({&parts.sets[s], &parts.laws[s]});
+    any = any || bodies.back().liquid();
   }
   if (!any) return;
   double cell = definition.across();

@@ -13,8 +13,6 @@
 namespace mpm {
 namespace {
 
-bool deforms(ShapeKind shape) { return shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi; }
-
 void keep_within_reach(PlacedDomain& domain, const GridLayout& layout) {
   double reach = kDomainReach;
   for (int c = 0; c < domain.dim; ++c) {
@@ -34,29 +32,31 @@ int block_along(int node) { return (node + kBlockEdge) / kBlockEdge - 1; }
 
 PlacedDomain DomainFaces::domain_of(const ParticleSet& set, int p) const {
   const GridLayout& grid = layout();
+  const ShapeTraits& traits = traits_of(settings_.shape);
   PlacedDomain domain;
   domain.dim = grid.dim();
   for (int k = 0; k < domain.dim; ++k) {
     domain.center[k] = set.x[k][p];
     double half = set.half[k];
-    if (settings_.shape == ShapeKind::ugimp_stretch) {
+    if (traits.follows == Follows::stretch) {
       half = UgimpStretch<double>::half(set.domain[k][p], {half, grid.inverse_cell(k)});
     }
     half *= grid.cell(k);
     domain.d[k][k] = half;
-    if (!deforms(settings_.shape)) continue;
+    if (!traits.shears()) continue;
     for (int c = 0; c < domain.dim; ++c) domain.d[k][c] = set.domain[c * domain.dim + k][p] * half;
   }
   const bool ring = axisymmetric(settings_.geometry) && !set.whole_domains && !set.planar_functions;
-  if (ring && follows_deformation(settings_.shape)) shrink_to_axis(domain, settings_.shape == ShapeKind::ugimp_stretch);
-  if (ring && !follows_deformation(settings_.shape)) truncate_at_axis(domain);
-  if (deforms(settings_.shape)) keep_within_reach(domain, grid);
+  if (ring && traits.follows_deformation()) shrink_to_axis(domain, !traits.shears());
+  if (ring && !traits.follows_deformation()) truncate_at_axis(domain);
+  if (traits.shears()) keep_within_reach(domain, grid);
   return domain;
 }
 
 // In plane stress a domain that follows the deformation has the thickness that the particle has now.
 double DomainFaces::across(const ParticleSet& set, int p) const {
-  const bool follows = settings_.geometry == GeometryKind::plane_stress && follows_deformation(settings_.shape);
+  const bool follows =
+      settings_.geometry == GeometryKind::plane_stress && traits_of(settings_.shape).follows_deformation();
   return settings_.across * (follows ? set.f[PlaneStress::kMatrix - 1][p] : 1.0);
 }
 

@@ -2,33 +2,14 @@
 
 #include <cmath>
 
-#include "mpm/shape/bspline.hpp"
+#include "mpm/shape/spline_weights.hpp"
 
 namespace mpm {
 namespace {
 
-/// Along one axis: nodes first, first + 1, …
-struct AxisWeights {
-  int first = 0, count = 0;
-  std::array<double, 5> weight{};
-};
-
-template <class Spline>
-AxisWeights spline_weights(const Grid& grid, int k, double cells) {
-  const int nearest = GridLayout::nearest(cells);
-  Spline spline(cells - nearest, typename Spline::Axis(0.0, grid.layout.inverse_cell(k)));
-  constexpr double kFar = 1e9;
-  spline.fold(grid.has_wall[2 * k] ? nearest : kFar,
-              grid.has_wall[2 * k + 1] ? grid.layout.last_node(k) - nearest : kFar);
-  AxisWeights weights{nearest - Spline::kNodes / 2, Spline::kNodes, {}};
-  for (int n = 0; n < Spline::kNodes; ++n) weights.weight[n] = spline.s[n];
-  return weights;
-}
-
 AxisWeights axis_weights(const Grid& grid, ShapeKind shape, int k, double cells) {
-  if (shape == ShapeKind::bspline3) return spline_weights<CubicSpline<double>>(grid, k, cells);
-  const double below = std::floor(cells);
-  return {static_cast<int>(below), 2, {1.0 - (cells - below), cells - below}};
+  return spline_weights(traits_of(shape).surface_degree, cells, grid.has_wall[2 * k] ? 0.0 : -kFarWall,
+                        grid.has_wall[2 * k + 1] ? grid.layout.last_node(k) : kFarWall);
 }
 
 /// True if a place may be looked up along an axis: nodes may be as far as a block beyond the domain.

@@ -14,23 +14,7 @@ double passes(UpdateScheme update, const Transfer& transfer) {
   return plain + (filtered ? 2.0 * (transfer.order - 1) : 0.0);
 }
 
-int visits(ShapeKind shape, int dim) {
-  switch (shape) {
-    case ShapeKind::dirac:
-      return power(2, dim);
-    case ShapeKind::ugimp:
-    case ShapeKind::ugimp_stretch:
-    case ShapeKind::bspline2:
-      return power(3, dim);
-    case ShapeKind::bspline3:
-      return power(4, dim);
-    case ShapeKind::cpdi:
-      return power(4, dim);
-    case ShapeKind::qcpdi:
-      return power(6, dim);
-  }
-  return 0;
-}
+int visits(ShapeKind shape, int dim) { return power(traits_of(shape).nodes, dim); }
 
 double counted_work(const MethodDefinition& method, int dim) {
   return visits(method.shape, dim) * passes(method.update, method.transfer);

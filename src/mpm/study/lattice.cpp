@@ -14,7 +14,7 @@ SimulationDefinition empty_definition(const std::string& name, GeometryKind geom
   definition.time.end = end;
   definition.time.cfl = discretisation.cfl;
   if (discretisation.step > 0.0) definition.time.step = discretisation.step;
-  definition.time.sync = std::llround(1e9 * sync);
+  definition.time.sync = nanoseconds_of(sync);
   definition.method = method;
   definition.method.particles_per_direction = discretisation.particles_per_direction;
   return definition;

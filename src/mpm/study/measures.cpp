@@ -14,7 +14,7 @@ class DisplacementError final : public ErrorMeasure {
   void look(Simulation& simulation) override {
     const std::vector<Vec3> places = places_of(simulation);
     if (start_.empty()) start_ = places;
-    const double time = 1e-9 * static_cast<double>(simulation.time());
+    const double time = seconds_of(simulation.time());
     double squares = 0.0;
     for (std::size_t p = 0; p < places.size(); ++p) squares += (places[p] - motion_(time, start_[p])).squaredNorm();
     worst_ = std::max(worst_, std::sqrt(squares / static_cast<double>(places.size())));

@@ -33,7 +33,7 @@ class ForceError final : public ErrorMeasure {
  public:
   void look(Simulation& simulation) override {
     const double force = simulation.take_contact(0).mean.force.z();  // since the last look
-    if (1e-9 * static_cast<double>(simulation.time()) <= kPressing) return;
+    if (seconds_of(simulation.time()) <= kPressing) return;
     squares_ += std::pow(force / holding_force() - 1.0, 2);
     count_ += 1.0;
   }

@@ -39,7 +39,7 @@ class Runner::Twin {
  public:
   explicit Twin(SimulationDefinition definition) : definition_(std::move(definition)) {
     definition_.body_forces.clear();
-    end_ = std::llround(1e9 * definition_.time.end);
+    end_ = nanoseconds_of(definition_.time.end);
     advance();  // memory is allocated, caches are warm
   }
 
@@ -125,7 +125,7 @@ Row Runner::run(const Suite& suite, const choice::MethodChoice& choice, const Di
   row.error_measure = suite.measure_text;
   try {
     SimulationDefinition definition = define(suite, choice, discretisation);
-    const std::int64_t end = std::llround(1e9 * definition.time.end);
+    const std::int64_t end = nanoseconds_of(definition.time.end);
     Simulation simulation(std::move(definition), SimulationOptions{1});
     row.particles = simulation.particles();
     const std::unique_ptr<ErrorMeasure> measure = suite.measure();

@@ -24,7 +24,7 @@ class SlideError final : public ErrorMeasure {
  public:
   void look(Simulation& simulation) override {
     const double along = mean(simulation, "x") * kDown.x() + mean(simulation, "z") * kDown.z();
-    const double time = 1e-9 * static_cast<double>(simulation.time());
+    const double time = seconds_of(simulation.time());
     if (time == 0.0) start_ = along;
     worst_ = std::max(worst_, std::abs(along - start_ - way(time)));
   }

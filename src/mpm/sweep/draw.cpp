@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "mpm/math/byte_hash.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace mpm::sweep {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint64_t kMostAttempts = 10000;
 
 /// The finaliser of SplitMix64.

@@ -15,7 +15,7 @@ double largest(const Symmetric3<double>& s) {
 }  // namespace
 
 double least_capacity(const TransportMaterial& material, Transported quantity, double density) {
-  return material.capacity.least() * (quantity == Transported::temperature ? density : 1.0);
+  return material.capacity.least() * (traits_of(quantity).by_mass ? density : 1.0);
 }
 
 double largest_diffusivity(const TransportMaterial& material, Transported quantity, double density) {

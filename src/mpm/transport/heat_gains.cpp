@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/material/definition.hpp"
-
 namespace mpm {
 
 int temperature_index(const Law& law) {
   return std::visit([](const auto& own) { return own.kTemperature; }, law);
-}
-
-double bulk_modulus(const LawDefinition& law) {
-  if (const auto* fluid = std::get_if<NewtonianFluidDefinition>(&law)) return fluid->bulk_modulus;
-  const std::optional<Elasticity> elasticity = elasticity_of(law);
-  return elasticity ? elasticity->bulk() : 0.0;
 }
 
 PlasticHeat::PlasticHeat(std::vector<ParticleSet>& sets, std::vector<HeatOfSet> heat)

@@ -20,7 +20,7 @@ void TransportedField::find_capacities(int set, int first, int last, double* cap
   const ParticleSet& of = parts_.sets[set];
   const TransportMaterial& own = material(set);
   const PaddedArray<double>& value = values(set);
-  const bool by_volume = definition_.quantity != Transported::temperature;
+  const bool by_volume = !traits_of(definition_.quantity).by_mass;
   if (by_volume) find_volume_ratios(of, parts_.geometry, first, last, capacity);
   for (int p = first; p < last; ++p) {
     double& c = capacity[p - first];

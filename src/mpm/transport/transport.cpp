@@ -9,6 +9,7 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "visits.hpp"
 
 namespace mpm {
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kWait = 1.0;        ///< part of the step of one stage that an update may wait for
 constexpr double kRoundOff = 1e-13;  ///< part of a sum over all particles and updates, relative to what is summed
+
+std::string content_name(const TransportedTraits& of) { return std::string(of.name) + " content"; }
 
 }  // namespace
 
@@ -40,7 +43,7 @@ void Transport::prepare_expansion() {
     parts_.sets[s].bring("free_strain_before", "1");
     parts_.sets[s].bring("free_strain_grown", "1");
   }
-  if (expands_) expands_for_ = 1e-9 * static_cast<double>(sync_);  // time for a start that is not free of strain
+  if (expands_) expands_for_ = seconds_of(sync_);  // time for a start that is not free of strain
 }
 
 template <class Term>
@@ -121,7 +124,7 @@ void Transport::forces_gathered(StepContext& context) {
 
 void Transport::grid_advanced(StepContext& context) {
   const double end = context.start + context.dt;
-  const bool last = end + 0.25 * context.dt > 1e-9 * static_cast<double>(sync_end_);
+  const bool last = end + 0.25 * context.dt > seconds_of(sync_end_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     TransportedField& field = *fields_[i];
     waited_[i] += context.dt;
@@ -170,12 +173,18 @@ double Transport::budget_error(const TransportedField& field) const {
   return error / std::max(exchanged, kRoundOff * content);
 }
 
+std::vector<std::pair<std::string, std::string>> transport_numbers() {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const TransportedTraits& of : kTransported) list.emplace_back(content_name(of), of.content_unit);
+  return list;
+}
+
 void Transport::numbers(std::vector<NamedNumber>& list) const {
   const double once = parts_.ranks == nullptr || parts_.ranks->first() ? 1.0 : 0.0;  // weight of what all ranks know
   for (const auto& field : fields_) {
-    const auto kind = static_cast<int>(field->quantity());
-    const std::string name = kQuantityNames[kind], unit = kContentUnits[kind];
-    list.push_back({name + " content", unit, field->gained()});
+    const TransportedTraits& of = traits_of(field->quantity());
+    const std::string name = of.name, unit = of.content_unit;
+    list.push_back({content_name(of), unit, field->gained()});
     for (const ContentAccount& account : field->accounts()) {
       list.push_back({name + " by " + account.name, unit, account.given});
     }
@@ -223,7 +232,7 @@ void Transport::serialise(StateArchive& archive) {
   if (archive.reading()) begun_ = expands_;  // it looks, and finds what there is
   archive.value("expands_for", expands_for_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    const StateArchive::Group group(archive, kQuantityNames[static_cast<int>(fields_[i]->quantity())]);
+    const StateArchive::Group group(archive, traits_of(fields_[i]->quantity()).name);
     archive.value("waited", waited_[i]);
     fields_[i]->serialise(archive);
   }

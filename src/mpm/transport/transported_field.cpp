@@ -42,13 +42,12 @@ TransportedField::TransportedField(const QuantityDefinition& definition, const T
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     nodes_.push_back({NodalField(1, nodes), NodalField(1, nodes), NodalField(1, nodes)});
   }
-  const std::string name = kQuantityNames[static_cast<int>(definition_.quantity)];
-  const std::string unit = kQuantityUnits[static_cast<int>(definition_.quantity)];
+  const std::string name = traits_of(definition_.quantity).name, unit = traits_of(definition_.quantity).unit;
   for (ParticleSet& set : parts_.sets) {
     place_.push_back(set.bring(name, unit));
     set.bring(name + "_carried", unit);
   }
-  bool one = definition_.quantity == Transported::temperature;
+  bool one = traits_of(definition_.quantity).by_mass;
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     const TransportMaterial& own = material(static_cast<int>(s));
     one = one && own.capacity.is_constant() && own.capacity(0.0) == material(0).capacity(0.0);
@@ -132,7 +131,7 @@ void TransportedField::find_limit() {
   const double cell = parts_.fields.front()->layout.smallest_cell();
   stable_step_ = mpm::stable_step(cell, fastest);
   longest_update_ = std::numeric_limits<double>::infinity();
-  if (parts_.shape == ShapeKind::dirac) longest_update_ = kOfPoints * stable_step_;
+  if (traits_of(parts_.shape).point()) longest_update_ = kOfPoints * stable_step_;
 }
 
 void TransportedField::share_limits(Communicator& ranks) {
@@ -175,8 +174,8 @@ void TransportedField::ask_to_stop() {
   if (parts_.ranks != nullptr && ++asked_ % kRanksEvery != 0) return;
   const bool own = parts_.interrupt();
   if (parts_.ranks == nullptr ? !own : !parts_.ranks->any(own)) return;
-  throw StoppedError(fmt::format("stopped within a step, while the {} moved in stages",
-                                 kQuantityNames[static_cast<int>(definition_.quantity)]));
+  throw StoppedError(
+      fmt::format("stopped within a step, while the {} moved in stages", traits_of(definition_.quantity).name));
 }
 
 void TransportedField::update(double start, double dt, bool reported) {
@@ -205,7 +204,7 @@ void TransportedField::update(double start, double dt, bool reported) {
 }
 
 void TransportedField::check_range() const {
-  const bool absolute = definition_.quantity == Transported::temperature;
+  const bool absolute = traits_of(definition_.quantity).absolute;
   const double least = -kBeyond * (highest_ - lowest_);  // FLIP's scatter
   const auto good = [&](double value) { return std::abs(value) < kLargest && (!absolute || value >= least); };
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
@@ -220,9 +219,8 @@ void TransportedField::check_range() const {
       throw TransportError(fmt::format(
           "the {} of particle {} of body '{}' at {} is {:.4g} {}, {}; lower time.step, or look at sources and "
           "conditions there",
-          kQuantityNames[static_cast<int>(definition_.quantity)], set.id[p], set.name,
-          text_of(place_of(set, parts_.fields.front()->layout, p)), value[p],
-          kQuantityUnits[static_cast<int>(definition_.quantity)],
+          traits_of(definition_.quantity).name, set.id[p], set.name,
+          text_of(place_of(set, parts_.fields.front()->layout, p)), value[p], traits_of(definition_.quantity).unit,
           absolute && value[p] < 0.0 ? "below the absolute zero" : "out of all range"));
     }
   }

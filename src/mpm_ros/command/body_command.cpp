@@ -22,7 +22,7 @@ double reach_of(const mpm::RigidBody& body) {
 /// Largest distance that the command moves a point of its body in a sync period [m]; infinite when it overflows.
 double travel_of(const AppliedCommand& command, const mpm::Simulation& simulation) {
   const mpm::RigidBody& body = simulation.rigid_body(command.body);
-  const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
+  const double sync = mpm::seconds_of(simulation.sync_period());
   // Motion that the geometry does not have is none: a link beside the plane of a planar scene.
   const mpm::GeometryKind geometry = simulation.definition().geometry;
   if (command.kind == CommandKind::wrench) {
@@ -41,7 +41,7 @@ double travel_of(const AppliedCommand& command, const mpm::Simulation& simulatio
     return sync * (twist.linear.norm() + twist.angular.norm() * reach_of(body));
   }
   const mpm::Pose pose = mpm::projected(command.pose, geometry, body.definition());
-  const double periods = static_cast<double>(command.arrival - command.effect) * 1e-9 / sync;
+  const double periods = mpm::seconds_of(command.arrival - command.effect) / sync;
   const double turn = pose.orientation.angularDistance(body.pose().orientation);
   return ((pose.position - body.pose().position).norm() + turn * reach_of(body)) / periods;
 }
@@ -75,18 +75,17 @@ void check_travel(const AppliedCommand& command, const mpm::Simulation& simulati
   const double longest = size.norm(), travel = travel_of(command, simulation);
   // Not "travel > longest": what is not a number is left to the body's own check.
   if (!(travel > longest)) return;
-  throw mpm::RigidError(
-      fmt::format("it would move '{}' by {:.3g} m in one sync period of {:g} s, more than the domain's diagonal of "
-                  "{:.3g} m; check its units, or reach a far pose in more time",
-                  simulation.rigid_body(command.body).name(), travel,
-                  static_cast<double>(simulation.sync_period()) * 1e-9, longest));
+  throw mpm::RigidError(fmt::format(
+      "it would move '{}' by {:.3g} m in one sync period of {:g} s, more than the domain's diagonal of "
+      "{:.3g} m; check its units, or reach a far pose in more time",
+      simulation.rigid_body(command.body).name(), travel, mpm::seconds_of(simulation.sync_period()), longest));
 }
 
 std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simulation) {
   if (command.kind != CommandKind::pose) return {};
   const double cell = simulation.definition().grid.cell.minCoeff(), travel = travel_of(command, simulation);
   if (!(travel > cell)) return {};
-  const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
+  const double sync = mpm::seconds_of(simulation.sync_period());
   const mpm::RigidBody& body = simulation.rigid_body(command.body);
   const mpm::Vec3 &from = body.pose().position, &to = command.pose.position;
   return fmt::format(
@@ -95,7 +94,7 @@ std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simula
       "{:.6f} s asks for {:.3g} m/s, {:.3g} cells in a sync period; give it limits in the scene, or begin where it "
       "stands",
       body.name(), (to - from).norm() / cell, from.x(), from.y(), from.z(), to.x(), to.y(), to.z(),
-      static_cast<double>(command.arrival) * 1e-9, travel / sync, travel / cell);
+      mpm::seconds_of(command.arrival), travel / sync, travel / cell);
 }
 
 void apply(const AppliedCommand& command, mpm::Simulation& simulation) {

@@ -46,8 +46,8 @@ mpm::Twist prescribed_part(const mpm::RigidBody& body, const mpm::Twist& twist) 
 
 /// The prescribed part of the body's present motion. At the start of a run it has not moved yet.
 mpm::Twist present_twist(const mpm::RigidBody& body, std::int64_t now) {
-  return prescribed_part(
-      body, body.drive() == mpm::Drive::functions ? body.twist_at(static_cast<double>(now) * 1e-9) : body.twist());
+  return prescribed_part(body,
+                         body.drive() == mpm::Drive::functions ? body.twist_at(mpm::seconds_of(now)) : body.twist());
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ std::vector<AppliedCommand> CommandLimiter::next(const mpm::Simulation& simulati
 AppliedCommand CommandLimiter::towards_velocity(Goal& goal, const mpm::RigidBody& body,
                                                 const mpm::Simulation& simulation, bool& reached) {
   const mpm::MotionLimits& limits = limits_[static_cast<std::size_t>(goal.command.body)];
-  const double period = static_cast<double>(simulation.sync_period()) * 1e-9;
+  const double period = mpm::seconds_of(simulation.sync_period());
   const mpm::Twist present = present_twist(body, simulation.time());
   const mpm::Twist wanted{shortened(goal.command.twist.linear, limits.speed),
                           shortened(goal.command.twist.angular, limits.rotation_rate)};
@@ -141,8 +141,8 @@ AppliedCommand CommandLimiter::towards_pose(Goal& goal, const mpm::RigidBody& bo
                                             bool& reached) {
   const mpm::MotionLimits& limits = limits_[static_cast<std::size_t>(goal.command.body)];
   const std::int64_t now = simulation.time(), sync = simulation.sync_period();
-  const double period = static_cast<double>(sync) * 1e-9;
-  const double time = static_cast<double>(std::max(goal.command.arrival - now, sync)) * 1e-9;
+  const double period = mpm::seconds_of(sync);
+  const double time = mpm::seconds_of(std::max(goal.command.arrival - now, sync));
   const mpm::Twist present = present_twist(body, now);
   const mpm::Twist way = prescribed_part(body, mpm::twist_between(body.pose(), goal.command.pose, 1.0));
   const mpm::Twist twist{

@@ -94,7 +94,7 @@ std::string CommandReader::too_far_ahead(std::int64_t stamp) const {
   return fmt::format(
       "the stamp lies {:.0f} s ahead of the simulation, and at most {:.0f} s are taken; does the sender read the same "
       "clock?",
-      static_cast<double>(ahead) * 1e-9, static_cast<double>(CommandQueue::kHorizon) * 1e-9);
+      mpm::seconds_of(ahead), mpm::seconds_of(CommandQueue::kHorizon));
 }
 
 void CommandReader::read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,

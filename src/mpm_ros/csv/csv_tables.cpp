@@ -160,21 +160,19 @@ void GlobalQuantitiesCsv::close() { close_if_open(writer_); }
 void CracksCsv::add(double time, const Cracks& message) {
   if (message.cracks.empty()) return;
   if (!tips_) {
-    tips_.emplace(
-        folder_ + "/crack_tips.csv",
-        std::vector<std::string>{"time [s]",         "crack",       "end",       "x [m]",        "z [m]",
-                                 "direction x",      "direction z", "j [J/m^2]", "zone [J/m^2]", "k_one [Pa m^0.5]",
-                                 "k_two [Pa m^0.5]", "opening [m]", "slip [m]",  "grown [m]",    "speed [m/s]",
-                                 "angle [rad]",      "growths",     "material",  "state",        "growth"});
+    std::vector<std::string> columns = {"time [s]", "crack", "end", "x [m]", "z [m]", "direction x", "direction z"};
+    add_columns(columns, "", CrackTip(), tip_quantities(), false);
+    columns.insert(columns.end(), {"material", "state", "growth"});
+    tips_.emplace(folder_ + "/crack_tips.csv", columns);
     points_.emplace(folder_ + "/crack_points.csv",
                     std::vector<std::string>{"time [s]", "crack", "point", "x [m]", "z [m]", "above x [m]",
                                              "above z [m]", "below x [m]", "below z [m]", "normal traction [Pa]",
                                              "shear traction [Pa]", "debonded"});
   }
   for (const CrackTip& tip : message.tips) {
-    *tips_ << time << tip.crack << tip.end << tip.place.x << tip.place.z << tip.direction.x << tip.direction.z << tip.j
-           << tip.zone << tip.k_one << tip.k_two << tip.opening << tip.slip << tip.grown << tip.speed << tip.angle
-           << static_cast<double>(tip.growths) << tip.material << tip.state << tip.growth;
+    *tips_ << time << tip.crack << tip.end << tip.place.x << tip.place.z << tip.direction.x << tip.direction.z;
+    write_numbers(*tips_, tip, tip_quantities(), false);
+    *tips_ << tip.material << tip.state << tip.growth;
     tips_->end_row();
   }
   for (const Crack& crack : message.cracks) {

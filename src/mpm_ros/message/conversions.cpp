@@ -178,16 +178,7 @@ Cracks to_message(const std::vector<mpm::CrackReport>& cracks, const std::vector
     to.state = tip.state;
     to.growth = tip.growth;
     to.material = tip.material;
-    to.j = tip.j;
-    to.zone = tip.zone;
-    to.k_one = tip.k_one;
-    to.k_two = tip.k_two;
-    to.opening = tip.opening;
-    to.slip = tip.slip;
-    to.grown = tip.grown;
-    to.speed = tip.speed;
-    to.angle = tip.angle;
-    to.growths = static_cast<std::uint32_t>(tip.growths);
+    fill(to, tip, tip_quantities());
   }
   return message;
 }

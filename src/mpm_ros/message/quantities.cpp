@@ -1,5 +1,7 @@
 #include "mpm_ros/message/quantities.hpp"
 
+#include "mpm/math/nanoseconds.hpp"
+
 // A member by its path: FIELD(mean.force).
 #define FIELD(path)                                        \
   Field {                                                  \
@@ -87,6 +89,23 @@ const std::vector<PairQuantity>& pair_quantities() {
   return list;
 }
 
+const std::vector<TipQuantity>& tip_quantities() {
+  using Q = TipQuantity;
+  static const std::vector<Q> list = {
+      Q("j", "J/m^2", Over::now, FIELD(j), FIELD(j), "j",
+        "energy release, without the work of tractions behind the tip"),
+      Q("zone", "J/m^2", Over::now, FIELD(zone), FIELD(zone), "zone", "that work, to the end of the contour"),
+      Q("k_one", "Pa m^0.5", Over::now, FIELD(k.one), FIELD(k_one), "k_one", "stress intensity of opening"),
+      Q("k_two", "Pa m^0.5", Over::now, FIELD(k.two), FIELD(k_two), "k_two", "stress intensity of shear"),
+      Q("opening", "m", Over::now, FIELD(opening), FIELD(opening), "opening", "of the faces next to the tip"),
+      Q("slip", "m", Over::now, FIELD(slip), FIELD(slip), "slip", "of the left face against the right one there"),
+      Q("grown", "m", Over::start, FIELD(grown), FIELD(grown), "grown", ""),
+      Q("speed", "m/s", Over::now, FIELD(speed), FIELD(speed), "speed", "of the last growth"),
+      Q("angle", "rad", Over::now, FIELD(angle), FIELD(angle), "angle", "by which the last growth turned"),
+      Q("growths", "1", Over::start, FIELD(growths), FIELD(growths), "growths", "")};
+  return list;
+}
+
 namespace {
 
 /// An energy by the name that the solver's modules give it.
@@ -103,9 +122,8 @@ const std::vector<StateQuantity>& state_quantities() {
   using Q = StateQuantity;
   static const std::vector<Q> list = {
       Q(
-          "time", "s", Over::start,
-          [](const mpm::SolverState& state) { return Value(static_cast<double>(state.time) * 1e-9); }, FIELD(time), "",
-          "simulated"),
+          "time", "s", Over::start, [](const mpm::SolverState& state) { return Value(mpm::seconds_of(state.time)); },
+          FIELD(time), "", "simulated"),
       Q("steps", "1", Over::start, FIELD(step.steps), FIELD(steps), "steps", ""),
       Q("dt", "s", Over::now, FIELD(step.dt_last), FIELD(dt), "dt", "the last time step"),
       Q("dt min", "s", Over::start, FIELD(step.dt_min), FIELD(dt_min), "dt min", ""),

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/transport/definition.hpp"
 
 namespace mpm_ros {
@@ -105,7 +106,8 @@ void fit_grid(YAML::Node display, const View& view) {
 }  // namespace
 
 bool is_transported(const std::string& field) {
-  return std::find(mpm::kQuantityNames.begin(), mpm::kQuantityNames.end(), field) != mpm::kQuantityNames.end();
+  return std::any_of(std::begin(mpm::kTransported), std::end(mpm::kTransported),
+                     [&](const mpm::TransportedTraits& of) { return of.name == field; });
 }
 
 double View::radius() const { return distance / kDistance; }
@@ -137,7 +139,7 @@ View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field, co
   if (view.planar) seen.min.y() = seen.max.y() = box.min.y();
   view.focus = seen.center();
   view.distance = kDistance * std::max(0.5 * seen.size().norm(), 1e-3);
-  view.yaw = view.planar ? 1.5 * M_PI : 4.5;
+  view.yaw = view.planar ? 1.5 * mpm::kPi : 4.5;
   view.pitch = view.planar ? 0.0 : 0.6;
   view.floor = box.min.z();
   view.particle_size = spacing_of(points);

@@ -76,7 +76,7 @@ CommandMemory BodyCommands::fresh_memory(const mpm::Scene& scene) const {
   // Commands that were recorded are within the limits already.
   std::vector<mpm::MotionLimits> limits = log_.empty() ? limits_of(scene) : std::vector<mpm::MotionLimits>();
   return {CommandQueue(scene.definition.time.sync),
-          CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
+          CommandWatch(mpm::nanoseconds_of(parameters_.command_timeout)),
           CommandLimiter(std::move(limits), health_),
           {}};
 }
@@ -126,7 +126,7 @@ void BodyCommands::look_at_lag(const Run& run) {
   }
   const auto [frame_ahead, frame] = bridge_->follower().farthest_ahead(run.stamps().at(now));
   const CommandReader::Newest newest = bridge_->reader().newest();
-  const double command_ahead = static_cast<double>(newest.stamp - now) * 1e-9;
+  const double command_ahead = mpm::seconds_of(newest.stamp - now);
   // Commands stamped at present are ahead by the lag; a plan may be by anything.
   const bool frames_wait = frame_ahead > 0.5 * lag;
   if (!frames_wait && !(command_ahead > 0.5 * lag)) {
@@ -187,11 +187,10 @@ std::string BodyCommands::apply(Run& run, const AppliedCommand& command) {
   if (command.kind != CommandKind::wrench) memory_.turning.drop(command.body);
   if (command.own) memory_.turning.hold(command.body, *command.own, body.pose().orientation);
   memory_.watch.heard(command);
-  health_.follow(follower_name(body.name(), command.kind == CommandKind::wrench),
-                 static_cast<double>(command.effect) * 1e-9);
+  health_.follow(follower_name(body.name(), command.kind == CommandKind::wrench), mpm::seconds_of(command.effect));
   if (after != before) {
     health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
-                               static_cast<double>(command.effect) * 1e-9, drive_text(before)));
+                               mpm::seconds_of(command.effect), drive_text(before)));
   }
   return {};
 }
@@ -203,7 +202,7 @@ std::string BodyCommands::act_on_silence(Run& run) {
     const std::string follower = follower_name(bodies_[silent.body], silent.wrench);
     const std::string silence =
         fmt::format("no {} for '{}' in the {:g} s (simulated) before {:.6f} s", silent.wrench ? "wrench" : "command",
-                    bodies_[silent.body], parameters_.command_timeout, static_cast<double>(now) * 1e-9);
+                    bodies_[silent.body], parameters_.command_timeout, mpm::seconds_of(now));
     if (parameters_.on_timeout == OnTimeout::error) {
       return silence + "; ~on_timeout is error";
     }
@@ -238,7 +237,7 @@ std::vector<AppliedCommand> BodyCommands::read(const std::vector<Command>& reque
       const std::int64_t arrival = due.command.stamp.value_or(now + periods * sync);
       if (arrival <= now) {
         problem = fmt::format("the command for '{}': its arrival is not after the present, {:.9f} s", message.body,
-                              static_cast<double>(now) * 1e-9);
+                              mpm::seconds_of(now));
         return commands;
       }
       due.arrival = (arrival + sync - 1) / sync * sync;

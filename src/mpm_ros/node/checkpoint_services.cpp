@@ -52,7 +52,7 @@ void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Respons
   response.success = 1;
   response.path = from_root(path);
   response.stamp = run_->outputs().stamp();
-  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.time = mpm::seconds_of(run_->simulation().time());
   response.message = fmt::format("saved at {:.6f} s (simulated)", response.time);
 }
 
@@ -84,7 +84,7 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
   response.success = failure_.empty() ? 1 : 0;
   response.path = from_root(path);
   response.stamp = run_->outputs().stamp();
-  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.time = mpm::seconds_of(run_->simulation().time());
   response.message = fmt::format("run {}: goes on from {:.6f} s (simulated), at stamp {}.{:09d}", runs_, response.time,
                                  response.stamp.sec, response.stamp.nsec);
   if (!failure_.empty()) response.message = failure_;

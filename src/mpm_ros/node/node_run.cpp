@@ -47,7 +47,7 @@ RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters
   options.bag_options.compression = parameters.record_compression;
   constexpr double kMegabyte = 1e6;
   options.bag_options.split_size = static_cast<std::uint64_t>(std::min(parameters.record_split_size * kMegabyte, 1e15));
-  options.bag_options.split_duration = std::llround(std::min(parameters.record_split_duration, 1e9) * 1e9);
+  options.bag_options.split_duration = mpm::nanoseconds_of(std::min(parameters.record_split_duration, 1e9));
   options.bag_options.required = parameters.record_required;
   options.parameters = parameters.text;
   if (!set.empty()) options.parameters += fmt::format("\nreset_with: {}", mpm::json_text(nlohmann::json(set)));

@@ -2,6 +2,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/topics.hpp"
 
 namespace mpm_ros {
@@ -13,7 +14,8 @@ constexpr std::uint32_t kQueue = 1000;
 
 }  // namespace
 
-SimClock::SimClock(ros::NodeHandle node, bool publish, double rate) : period_(rate > 0.0 ? 1e9 / rate : 0.0) {
+SimClock::SimClock(ros::NodeHandle node, bool publish, double rate)
+    : period_(rate > 0.0 ? mpm::kNanosecondsOfSecond / rate : 0.0) {
   if (!ros::Time::isSimTime() || !publish) return;
   publisher_ = node.advertise<rosgraph_msgs::Clock>(topics::kClock, kQueue, true);
 }

@@ -57,7 +57,7 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
 
 void SimulatorNode::tell_budget() const {
   const double budget = *subject_->scene.definition.time.budget;
-  const double period = 1e-9 * static_cast<double>(run_->simulation().sync_period()) / parameters_.real_time_factor;
+  const double period = mpm::seconds_of(run_->simulation().sync_period()) / parameters_.real_time_factor;
   if (parameters_.pacing == Pacing::real_time && budget >= period) {
     ROS_WARN_STREAM(
         fmt::format("time.budget: {} leaves no time for outputs in a sync period, for which there are {}; "
@@ -74,7 +74,7 @@ void SimulatorNode::tell_budget() const {
 void SimulatorNode::tell_pace() {
   if (pace_told_ || parameters_.pacing != Pacing::free || run_->ended() || run_->wall_seconds() < kFirstSecond) return;
   pace_told_ = true;
-  const double factor = run_->real_time_factor(), now = static_cast<double>(run_->simulation().time()) * 1e-9;
+  const double factor = run_->real_time_factor(), now = mpm::seconds_of(run_->simulation().time());
   const double end = subject_->scene.definition.time.end;
   std::string text = fmt::format("the run goes at {:.2g} of real time", factor);
   if (end > now) {
@@ -89,14 +89,13 @@ void SimulatorNode::tell_overload() {
   const Pacer::Clock::time_point now = Pacer::Clock::now();
   if (overload_told_ && now < *overload_told_ + kOverloadAgain) return;
   overload_told_ = now;
-  ROS_WARN_STREAM(
-      fmt::format("at {:g} s the run is {:.2g} s late, more than is caught up with, and goes on so much behind the "
-                  "wall clock. If this "
-                  "goes on, lower _real_time_factor, give the scene a target (_set:=target.real_time=1), or see what "
-                  "would help with "
-                  "run_scene --explain",
-                  static_cast<double>(run_->simulation().time()) * 1e-9,
-                  std::chrono::duration<double>(pacer_->last_delay()).count()));
+  ROS_WARN_STREAM(fmt::format(
+      "at {:g} s the run is {:.2g} s late, more than is caught up with, and goes on so much behind the "
+      "wall clock. If this "
+      "goes on, lower _real_time_factor, give the scene a target (_set:=target.real_time=1), or see what "
+      "would help with "
+      "run_scene --explain",
+      mpm::seconds_of(run_->simulation().time()), std::chrono::duration<double>(pacer_->last_delay()).count()));
 }
 
 void SimulatorNode::say_closed() const {
@@ -130,7 +129,7 @@ void SimulatorNode::report() {
       solver.failed = true;
       break;
   }
-  solver.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  solver.time = mpm::seconds_of(run_->simulation().time());
   solver.real_time_factor = run_->real_time_factor();
   if (parameters_.pacing == Pacing::real_time && phase() == Phase::running) {
     solver.asked_factor = parameters_.real_time_factor;
@@ -158,7 +157,7 @@ void SimulatorNode::report() {
 
   const LateCommands late = commands_.late();
   health_.set_commands({late.unstamped, late.past, commands_.waiting(), CommandQueue::kMost,
-                        static_cast<double>(CommandQueue::kHorizon) * 1e-9, commands_.dropped(), commands_.missing(),
+                        mpm::seconds_of(CommandQueue::kHorizon), commands_.dropped(), commands_.missing(),
                         commands_.dropped_transforms()});
 }
 

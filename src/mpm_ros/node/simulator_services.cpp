@@ -64,7 +64,7 @@ void SimulatorNode::pause(bool paused, std_srvs::SetBool::Response& response) {
   report();
   response.success = 1;
   response.message = fmt::format("{} at {:.6f} s (simulated)", paused ? "paused" : "not paused",
-                                 static_cast<double>(run_->simulation().time()) * 1e-9);
+                                 mpm::seconds_of(run_->simulation().time()));
 }
 
 std::string SimulatorNode::refusal_of(const std::exception& error) {
@@ -136,7 +136,8 @@ std::int64_t SimulatorNode::periods_of(const Step::Request& request, std::string
     problem = fmt::format("duration is {} s; it must be at least 0 and at most {:g}", request.duration, kLongestStep);
     return 0;
   }
-  const double periods = request.duration * 1e9 / static_cast<double>(run_->simulation().sync_period());
+  const double periods =
+      request.duration * mpm::kNanosecondsOfSecond / static_cast<double>(run_->simulation().sync_period());
   // Rounded up, but for the round-off of a duration meant to be whole.
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-6)));
 }
@@ -149,7 +150,7 @@ std::string SimulatorNode::step_refused() const {
       return parameters_.pacing == Pacing::lockstep ? "paused; call pause with false first" : "";
     case Phase::ended:
       return fmt::format("the run has ended at {:.6f} s; call reset to begin again",
-                         static_cast<double>(run_->simulation().time()) * 1e-9);
+                         mpm::seconds_of(run_->simulation().time()));
     case Phase::failed:
       return failure_ + "; call reset or reset_with to begin again, or load_checkpoint";
     case Phase::waiting:
@@ -161,7 +162,7 @@ std::string SimulatorNode::step_refused() const {
 void SimulatorNode::step(const Step::Request& request, Step::Response& response) {
   response.success = 0;
   response.stamp = run_->outputs().stamp();
-  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.time = mpm::seconds_of(run_->simulation().time());
   response.received = commands_.received();
 
   std::string problem = step_refused();
@@ -191,7 +192,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   }
   commands_.release();
   response.stamp = run_->outputs().stamp();
-  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.time = mpm::seconds_of(run_->simulation().time());
   response.message = failure_.empty() ? refusal : failure_;
   if (response.message.empty() && !run_->ended() && done < periods) {
     response.message =

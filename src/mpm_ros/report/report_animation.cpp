@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/math/json_text.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/view.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 #include "mpm_ros/report/report_error.hpp"
@@ -86,8 +87,8 @@ Animation::Animation(const std::string& csv, const std::string& file, const Fiel
 void Animation::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {
   const CloudField x(message, "x"), y(message, "y"), z(message, "z"), values(message, field_);
   if (!x.found() || !y.found() || !z.found() || !values.found()) {
-    throw ReportError(
-        fmt::format("the particle snapshot at {} s has no x, y, z and {}, as the others have", seconds(time), field_));
+    throw ReportError(fmt::format("the particle snapshot at {} s has no x, y, z and {}, as the others have",
+                                  mpm::nearest_seconds(time), field_));
   }
   rows_.resize(values.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -95,7 +96,7 @@ void Animation::particles(std::int64_t time, const sensor_msgs::PointCloud2& mes
     rows_[i] = {static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z()),
                 static_cast<float>(values.at(i))};
   }
-  const double now = seconds(time);
+  const double now = mpm::nearest_seconds(time);
   const std::uint64_t count = rows_.size();
   send(&now, sizeof now);
   send(&count, sizeof count);

@@ -217,7 +217,8 @@ void RunBag::find_start() {
   if (states.begin() == states.end()) throw BagError(path_ + ": the run has no message; was it stopped at its start?");
   const SolverState::ConstPtr first = take<SolverState>(*states.begin(), path_);
   if (first->header.stamp == ros::TIME_MIN) return;  // stands for time zero of a run with origin zero
-  const std::int64_t origin = static_cast<std::int64_t>(first->header.stamp.toNSec()) - std::llround(first->time * 1e9);
+  const std::int64_t origin =
+      static_cast<std::int64_t>(first->header.stamp.toNSec()) - mpm::nanoseconds_of(first->time);
   ros::Time start;
   start.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(origin, 0)));
   stamps_ = Stamps(start);

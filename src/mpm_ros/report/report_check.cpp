@@ -34,13 +34,13 @@ double relative(double difference, double scale) {
 }  // namespace
 
 RunChecks::RunChecks(double sync_period, mpm::Precision precision, std::vector<std::string> missing, bool axisymmetric)
-    : sync_period_(std::llround(sync_period * 1e9)),
+    : sync_period_(mpm::nanoseconds_of(sync_period)),
       audit_limit_(audit_limit(precision)),
       missing_(std::move(missing)),
       axisymmetric_(axisymmetric) {}
 
 void RunChecks::fail(const std::string& name, std::int64_t time, const std::string& what) {
-  failures_.emplace(name, fmt::format("at {} s: {}", seconds(time), what));
+  failures_.emplace(name, fmt::format("at {} s: {}", mpm::nearest_seconds(time), what));
 }
 
 void RunChecks::gap(const std::string& text) {
@@ -59,28 +59,29 @@ void RunChecks::space(const std::string& topic, std::int64_t time) {
   known.last = time;
   if (interval == 0) return;  // the closing message of a run repeats the last time
   if (interval < 0) {
-    gap(fmt::format("{}: time goes back by {} s to {} s (was the run reset?)", topic, seconds(-interval),
-                    seconds(time)));
+    gap(fmt::format("{}: time goes back by {} s to {} s (was the run reset?)", topic, mpm::nearest_seconds(-interval),
+                    mpm::nearest_seconds(time)));
     return;
   }
   if (known.interval == 0) {
     known.interval = interval;
     if (sync_period_ > 0 && interval % sync_period_ != 0) {
-      gap(fmt::format("{}: {} s between messages is no multiple of the sync period, {} s", topic, seconds(interval),
-                      seconds(sync_period_)));
+      gap(fmt::format("{}: {} s between messages is no multiple of the sync period, {} s", topic,
+                      mpm::nearest_seconds(interval), mpm::nearest_seconds(sync_period_)));
     }
     return;
   }
   // Messages come at multiples of their interval: a run that goes on from between two of them begins with less.
   if (known.count == 3 && interval > known.interval && *known.first % interval != 0) known.interval = interval;
   if (known.shorter) {
-    gap(fmt::format("{}: only {} s before {} s, {} s elsewhere", topic, seconds(*known.shorter),
-                    seconds(known.last - interval), seconds(known.interval)));
+    gap(fmt::format("{}: only {} s before {} s, {} s elsewhere", topic, mpm::nearest_seconds(*known.shorter),
+                    mpm::nearest_seconds(known.last - interval), mpm::nearest_seconds(known.interval)));
     known.shorter.reset();
   }
   if (interval < known.interval) known.shorter = interval;
   if (interval > known.interval) {
-    gap(fmt::format("{}: {} s missing before {} s", topic, seconds(interval - known.interval), seconds(time)));
+    gap(fmt::format("{}: {} s missing before {} s", topic, mpm::nearest_seconds(interval - known.interval),
+                    mpm::nearest_seconds(time)));
   }
 }
 
@@ -101,12 +102,12 @@ template <class Contact>
 void RunChecks::add_up(KnownImpulse& known, std::int64_t time, const Contact& contact, const mpm::Vec3& force) {
   const std::string& name = contact.name;
   const mpm::Vec3 impulse = from_message(contact.impulse);
-  const std::int64_t begin = time - std::llround(contact.interval * 1e9);
+  const std::int64_t begin = time - mpm::nanoseconds_of(contact.interval);
   bool whole = true;  // the interval begins where the last one ended
   if (known.time && std::llabs(begin - *known.time) > kStampRounding) {
     whole = false;
     gap(fmt::format("contact_forces: the interval of {} that ends at {} s begins at {} s, the last ended at {} s", name,
-                    seconds(time), seconds(begin), seconds(*known.time)));
+                    mpm::nearest_seconds(time), mpm::nearest_seconds(begin), mpm::nearest_seconds(*known.time)));
   }
   if (!known.time && std::llabs(begin) > kStampRounding)
     whole = false;  // recorded from later on: no known impulse before
@@ -162,10 +163,11 @@ void RunChecks::bodies(std::int64_t time, const BodyStates& message) {
 
 void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   space("solver_state", time);
-  const std::int64_t off = std::llabs(std::llround(message.time * 1e9) - time);
-  worst_stamp_ = std::max(worst_stamp_, seconds(off));
+  const std::int64_t off = std::llabs(mpm::nanoseconds_of(message.time) - time);
+  worst_stamp_ = std::max(worst_stamp_, mpm::nearest_seconds(off));
   if (off > kStampRounding) {
-    fail("stamps", time, fmt::format("the solver's time is {} s, {:.3g} s off the stamp", message.time, seconds(off)));
+    fail("stamps", time,
+         fmt::format("the solver's time is {} s, {:.3g} s off the stamp", message.time, mpm::nearest_seconds(off)));
   }
   check_steps(time, message);
 
@@ -216,7 +218,8 @@ void RunChecks::check_steps(std::int64_t time, const SolverState& state) {
     fail("steps", time, fmt::format("steps went back from {} to {}", state_->steps, state.steps));
     return;
   }
-  const double elapsed = seconds(time - state_time_), steps = static_cast<double>(state.steps - state_->steps);
+  const double elapsed = mpm::nearest_seconds(time - state_time_),
+               steps = static_cast<double>(state.steps - state_->steps);
   if (steps == 0.0 || elapsed <= 0.0) {
     // Only the message that closes a run repeats a time; a run that failed may have stepped on from it.
     if (elapsed > 0.0) fail("steps", time, fmt::format("{} s passed in no step", elapsed));
@@ -273,11 +276,11 @@ void RunChecks::global_quantities(std::int64_t time, const GlobalQuantities& mes
 
 void RunChecks::clock(std::int64_t time) {
   if (clocks_++ > 0 && time < last_clock_) {
-    fail("clock", time, fmt::format("/clock goes back by {} s", seconds(last_clock_ - time)));
+    fail("clock", time, fmt::format("/clock goes back by {} s", mpm::nearest_seconds(last_clock_ - time)));
   }
   // Stamp zero means no time to ROS: the first one may be a nanosecond.
   if (sync_period_ > 0 && time > kStampRounding && time % sync_period_ != 0) {
-    fail("clock", time, fmt::format("/clock is not at a sync point, every {} s", seconds(sync_period_)));
+    fail("clock", time, fmt::format("/clock is not at a sync point, every {} s", mpm::nearest_seconds(sync_period_)));
   }
   last_clock_ = time;
 }
@@ -308,9 +311,10 @@ std::vector<CheckResult> RunChecks::results() const {
   }
   const double residual = relative(worst_balance_, spent_);
   if (first_balance_ && !(residual <= kBalanceLimit)) {
-    failures.emplace("balance", fmt::format("at {} s: {:.4g} J have no account, {:.2g} % of the {:.4g} J spent; a "
-                                            "method.update=usavg or a smaller time.cfl may help",
-                                            seconds(worst_balance_time_), worst_balance_, 100.0 * residual, spent_));
+    failures.emplace("balance",
+                     fmt::format("at {} s: {:.4g} J have no account, {:.2g} % of the {:.4g} J spent; a "
+                                 "method.update=usavg or a smaller time.cfl may help",
+                                 mpm::nearest_seconds(worst_balance_time_), worst_balance_, 100.0 * residual, spent_));
   }
   std::map<std::string, std::string> not_made;
   if (!first_balance_) {
@@ -334,8 +338,9 @@ std::vector<CheckResult> RunChecks::results() const {
       {"energy", "finite throughout"},
       {"balance", fmt::format("work and stored energy of {:.4g} J are found again to {:.2g} %, limit {:g} %", spent_,
                               100.0 * residual, 100.0 * kBalanceLimit)},
-      {"gaps", fmt::format("{} states, every {} s from {} s to {} s", states.count, seconds(states.interval),
-                           seconds(states.first.value_or(0)), seconds(states.last))},
+      {"gaps",
+       fmt::format("{} states, every {} s from {} s to {} s", states.count, mpm::nearest_seconds(states.interval),
+                   mpm::nearest_seconds(states.first.value_or(0)), mpm::nearest_seconds(states.last))},
       {"stamps", fmt::format("at most {:.2g} s off the solver's time", worst_stamp_)},
       {"steps", "as many as the time between states asks for, none backwards"},
       {"clock", fmt::format("{} messages, at sync points, none backwards", clocks_)},

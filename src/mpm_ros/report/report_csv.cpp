@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 #include "mpm_ros/report/report_messages.hpp"
@@ -31,25 +32,25 @@ CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
       commands_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
-  contact_forces_.add(seconds(time), message.bodies);
-  contact_pairs_.add(seconds(time), message.pairs);
+  contact_forces_.add(mpm::nearest_seconds(time), message.bodies);
+  contact_pairs_.add(mpm::nearest_seconds(time), message.pairs);
 }
 
 void CsvExport::bodies(std::int64_t time, const BodyStates& message) {
-  bodies_.add(seconds(time), body_states_of(message));
+  bodies_.add(mpm::nearest_seconds(time), body_states_of(message));
 }
 
 void CsvExport::solver_state(std::int64_t time, const SolverState& message) {
-  solver_state_.add(seconds(time), message);
+  solver_state_.add(mpm::nearest_seconds(time), message);
 }
 
 void CsvExport::global_quantities(std::int64_t time, const GlobalQuantities& message) {
   if (message.units.size() != message.names.size())
     throw BagError("global_quantities: as many units as names are needed");
-  global_quantities_.add(seconds(time), message.names, message.units, message.values);
+  global_quantities_.add(mpm::nearest_seconds(time), message.names, message.units, message.values);
 }
 
-void CsvExport::cracks(std::int64_t time, const Cracks& message) { cracks_.add(seconds(time), message); }
+void CsvExport::cracks(std::int64_t time, const Cracks& message) { cracks_.add(mpm::nearest_seconds(time), message); }
 
 void CsvExport::command(std::int64_t time, const Command& message) { commands_.add(command_row_of(time, message)); }
 
@@ -72,7 +73,7 @@ void CsvExport::close() {
 
 void SnapshotExport::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {
   const CloudColumns cloud = columns_of(message);
-  particles_.add(seconds(time), cloud.ids, cloud.columns);
+  particles_.add(mpm::nearest_seconds(time), cloud.ids, cloud.columns);
 }
 
 std::set<std::size_t> choose_snapshots(const std::vector<std::int64_t>& times, std::size_t most,

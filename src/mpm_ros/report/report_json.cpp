@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/audit_limit.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
@@ -14,13 +15,13 @@ using Json = nlohmann::ordered_json;
 Json array(const mpm::Vec3& vector) { return {vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0}; }  // no -0
 
 Json extreme(const Extreme& value) {
-  return {{"size", value.norm}, {"time", seconds(value.time)}, {"vector", array(value.vector)}};
+  return {{"size", value.norm}, {"time", mpm::nearest_seconds(value.time)}, {"vector", array(value.vector)}};
 }
 
 /// First and last time, or null.
 Json span(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
   if (!contact) return nullptr;
-  return {seconds(contact->first), seconds(contact->second)};
+  return {mpm::nearest_seconds(contact->first), mpm::nearest_seconds(contact->second)};
 }
 
 /// The figures of a contact, each under the key that its line in quantities.cpp gives it.
@@ -124,16 +125,16 @@ Json report_json(const RecordedRun& run) {
     json["commands"].push_back({{"body", key.first},
                                 {"kind", key.second},
                                 {"applied", value.count},
-                                {"first", seconds(value.first)},
-                                {"last", seconds(value.last)},
+                                {"first", mpm::nearest_seconds(value.first)},
+                                {"last", mpm::nearest_seconds(value.last)},
                                 {"late", value.late}});
   }
   const std::vector<std::int64_t>& snapshots = statistics.snapshots();
   json["snapshots"] = {
       {"count", snapshots.size()}, {"first", nullptr}, {"last", nullptr}, {"fields", run.particle_fields}};
   if (!snapshots.empty()) {
-    json["snapshots"]["first"] = seconds(snapshots.front());
-    json["snapshots"]["last"] = seconds(snapshots.back());
+    json["snapshots"]["first"] = mpm::nearest_seconds(snapshots.front());
+    json["snapshots"]["last"] = mpm::nearest_seconds(snapshots.back());
   }
   json["gaps"] = run.gaps;
   json["notes"] = run.notes;

@@ -1,5 +1,6 @@
 #include "mpm_ros/report/report_messages.hpp"
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 
 namespace mpm_ros {
@@ -20,13 +21,13 @@ std::string command_kind_name(std::uint8_t kind) {
 
 CommandRow command_row_of(std::int64_t time, const Command& message) {
   CommandRow row;
-  row.time = seconds(time);
+  row.time = mpm::nearest_seconds(time);
   row.body = message.body;
   row.kind = command_kind_name(message.kind);
   row.wrench = from_message(message.wrench);
   row.twist = from_message(message.twist);
   row.pose = from_message(message.pose);
-  row.arrival = seconds(message.arrival_ns);
+  row.arrival = mpm::nearest_seconds(message.arrival_ns);
   return row;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "mpm/math/error.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
@@ -107,7 +108,7 @@ void MomentumCheck::compare() {
     first_ = now;
     return;
   }
-  const mpm::Vec3 weight = total_mass_ * seconds(now.time - first_->time) * gravity_;
+  const mpm::Vec3 weight = total_mass_ * mpm::nearest_seconds(now.time - first_->time) * gravity_;
   const mpm::Vec3 expected = weight + (now.others - first_->others) - (now.on_bodies - first_->on_bodies);
   const mpm::Vec3 found = now.sums.momentum - first_->sums.momentum;
   for (const char name : axes_) {
@@ -124,7 +125,7 @@ void MomentumCheck::compare() {
       failure_ = fmt::format(
           "at {} s: the particles' momentum along {} has changed by {:.6g} N s, forces, weight and walls give {:.6g} "
           "N s",
-          seconds(now.time), name, found[axis], expected[axis]);
+          mpm::nearest_seconds(now.time), name, found[axis], expected[axis]);
     }
   }
   ++checked_;

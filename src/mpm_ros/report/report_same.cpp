@@ -9,6 +9,7 @@
 #include <map>
 #include <ostream>
 
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 #include "mpm_ros/report/report_statistics.hpp"
@@ -177,7 +178,8 @@ Comparison compare_topic(const RunBag& a, const RunBag& b, const char* topic, bo
     }
     if (of_a.time() != of_b.time()) {
       comparison.differ(std::min(of_a.time(), of_b.time()),
-                        fmt::format("a message at {} s and one at {} s", seconds(of_a.time()), seconds(of_b.time())));
+                        fmt::format("a message at {} s and one at {} s", mpm::nearest_seconds(of_a.time()),
+                                    mpm::nearest_seconds(of_b.time())));
       break;
     }
     compare_messages(of_a.time(), of_a.message(), of_b.message(), comparison);
@@ -217,14 +219,14 @@ bool same_runs(RunBag& a, RunBag& b, std::optional<double> tolerance, std::ostre
     same = same && within;
     out << fmt::format("{:<5} {:<18}", within ? "PASS" : "FAIL", name);
     if (comparison.first())
-      out << fmt::format("at {} s: {}; ", seconds(comparison.first()->time), comparison.first()->what);
+      out << fmt::format("at {} s: {}; ", mpm::nearest_seconds(comparison.first()->time), comparison.first()->what);
     out << (part > 0.0 ? fmt::format("worst {:.3g} of its largest, {:.3g}: {} at {} s\n", part, worst.size, worst.field,
-                                     seconds(worst.time))
+                                     mpm::nearest_seconds(worst.time))
                        : std::string("no numbers apart\n"));
   }
   if (to_the_bit && earliest != nullptr) {
     out << fmt::format("FAIL  first difference: {} at {} s: {}\n", earliest->first,
-                       seconds(earliest->second.first()->time), earliest->second.first()->what);
+                       mpm::nearest_seconds(earliest->second.first()->time), earliest->second.first()->what);
   }
   if (same) out << (to_the_bit ? "PASS  the same, to the bit\n" : "PASS  the same, within the tolerance\n");
   return same;

@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <array>
 
+#include "mpm/math/constants.hpp"
+#include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / mpm::kPi;
 
 std::string run_table(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
@@ -43,7 +45,8 @@ std::string run_table(const RecordedRun& run) {
 }
 
 std::string contact_times(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
-  return contact ? number(seconds(contact->first)) + " to " + number(seconds(contact->second)) : "none";
+  return contact ? number(mpm::nearest_seconds(contact->first)) + " to " + number(mpm::nearest_seconds(contact->second))
+                 : "none";
 }
 
 FigureText figure_text(const ContactStatistics& contact, const NumberStatistics& known, const Figure& figure) {
@@ -53,7 +56,7 @@ FigureText figure_text(const ContactStatistics& contact, const NumberStatistics&
   if (figure.of == Figure::Of::peak || figure.of == Figure::Of::largest) {
     value = known.peak.vector;
     text.size = number(known.peak.norm);
-    text.time = number(seconds(known.peak.time));
+    text.time = number(mpm::nearest_seconds(known.peak.time));
   } else if (!known.vector) {
     text.size = number(value.x());
   }
@@ -144,8 +147,8 @@ std::string command_table(const RunStatistics& statistics) {
   if (statistics.commands().empty()) return "Commands: none; the bodies followed the scene\n";
   TextTable table({"commands", "kind", "applied", "first [s]", "last [s]", "late"});
   for (const auto& [key, value] : statistics.commands()) {
-    table.add({key.first, key.second, std::to_string(value.count), number(seconds(value.first)),
-               number(seconds(value.last)), std::to_string(value.late)});
+    table.add({key.first, key.second, std::to_string(value.count), number(mpm::nearest_seconds(value.first)),
+               number(mpm::nearest_seconds(value.last)), std::to_string(value.late)});
   }
   return "Commands, by the time they took effect (late: after the stamp they carried)\n" + table.text();
 }

@@ -137,17 +137,7 @@ std::vector<ComparedValue> values_of(const Cracks& message) {
   }
   for (const CrackTip& tip : message.tips) {
     const std::string name = tip.crack + " " + tip.end + " ";
-    for (const auto& [what, number] : {std::pair{"j", tip.j},
-                                       {"zone", tip.zone},
-                                       {"k_one", tip.k_one},
-                                       {"k_two", tip.k_two},
-                                       {"opening", tip.opening},
-                                       {"slip", tip.slip},
-                                       {"grown", tip.grown},
-                                       {"speed", tip.speed},
-                                       {"angle", tip.angle}}) {
-      list.number(name + what, number);
-    }
+    list.numbers(name, tip, tip_quantities());
     list.word(name + "state", tip.state);
   }
   return list.take();

@@ -198,7 +198,7 @@ class Chooser {
           "{}: target: not one step of the scene could be timed; run it without target to see why", scene_.path));
     }
     costs_.particles = static_cast<double>(usual->particles);
-    costs_.sync = 1e-9 * static_cast<double>(scene.definition.time.sync);
+    costs_.sync = mpm::seconds_of(scene.definition.time.sync);
     costs_.step = scene.definition.time.step;
     for (const mpm::RigidBodyDefinition& body : scene.definition.rigid_bodies)
       costs_.fastest = std::max(costs_.fastest, mpm::tool_motion(body, scene.definition).fastest);

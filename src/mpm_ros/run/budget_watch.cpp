@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mpm/math/nanoseconds.hpp"
+
 namespace mpm_ros {
 namespace {
 
@@ -43,7 +45,7 @@ void BudgetWatch::look(const mpm::SweepBudget& budget, std::int64_t time, std::v
   lines.push_back(fmt::format(
       "time.budget has ended the sweeps of {} step{} up to t = {:.6g} s where the force on tools was off by "
       "up to {:.0f} %; solver_state has its error (sweep_error) of each step",
-      cut_, cut_ == 1 ? "" : "s", static_cast<double>(time) * 1e-9, 100.0 * worst_));
+      cut_, cut_ == 1 ? "" : "s", mpm::seconds_of(time), 100.0 * worst_));
   told_ = true;
   told_at_ = now;
   cut_ = 0;

@@ -4,11 +4,21 @@
 #include <limits>
 
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 namespace {
 
 constexpr float kNotThere = std::numeric_limits<float>::quiet_NaN();
+
+/// Numbers of tips that are shown: what the chain has at every point is not among them.
+std::vector<TipQuantity> shown_of_tips() {
+  std::vector<TipQuantity> list;
+  for (const TipQuantity& one : tip_quantities()) {
+    if (one.name == "j" || one.name == "k_one" || one.name == "k_two") list.push_back(one);
+  }
+  return list;
+}
 
 /// Direction of the chain at a point, from the points beside it; zero where they lie on one another.
 mpm::Vec3 tangent_at(const Crack& crack, std::size_t k) {
@@ -30,7 +40,9 @@ const CrackTip* tip_at(const Cracks& message, const Crack& crack, std::size_t k)
 
 VtkFile crack_lines(double time, const Cracks& message, bool fine) {
   std::vector<double> places;
-  std::vector<float> opening, slip, normal_traction, shear_traction, j, k_one, k_two;
+  std::vector<float> opening, slip, normal_traction, shear_traction;
+  const std::vector<TipQuantity> of_tips = shown_of_tips();
+  std::vector<std::vector<float>> at_tips(of_tips.size());
   std::vector<std::uint32_t> numbers, faces, debonded;
   std::vector<std::size_t> lengths;
   for (std::size_t i = 0; i < message.cracks.size(); ++i) {
@@ -49,9 +61,9 @@ VtkFile crack_lines(double time, const Cracks& message, bool fine) {
         numbers.push_back(static_cast<std::uint32_t>(i + 1));
         faces.push_back(face);
         const CrackTip* tip = tip_at(message, crack, k);
-        j.push_back(tip ? static_cast<float>(tip->j) : kNotThere);
-        k_one.push_back(tip ? static_cast<float>(tip->k_one) : kNotThere);
-        k_two.push_back(tip ? static_cast<float>(tip->k_two) : kNotThere);
+        for (std::size_t n = 0; n < of_tips.size(); ++n) {
+          at_tips[n].push_back(tip ? static_cast<float>(std::get<double>(of_tips[n].of_message(*tip))) : kNotThere);
+        }
       }
     }
   }
@@ -64,9 +76,7 @@ VtkFile crack_lines(double time, const Cracks& message, bool fine) {
   file.add("normal_traction", normal_traction);
   file.add("shear_traction", shear_traction);
   file.add("debonded", debonded);
-  file.add("j", j);
-  file.add("k_one", k_one);
-  file.add("k_two", k_two);
+  for (std::size_t i = 0; i < of_tips.size(); ++i) file.add(of_tips[i].name, at_tips[i]);
   return file;
 }
 

@@ -150,7 +150,7 @@ void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Si
   const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
   if (costs.path().empty() || simulation.time() == 0) return;
   const mpm::SolverState state = simulation.state();
-  const double simulated = 1e-9 * static_cast<double>(state.time), steps = static_cast<double>(state.step.steps);
+  const double simulated = mpm::seconds_of(state.time), steps = static_cast<double>(state.step.steps);
   const std::string key =
       mpm::pace::cost_key(mpm::text_without_target(scene), mpm::choose_isa(simulation.isa()), threads_asked);
   const std::int64_t now = mpm::pace::wall_time();

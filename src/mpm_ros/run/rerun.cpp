@@ -55,7 +55,7 @@ Rerun read_rerun(const std::string& path, bool resumed) {
     throw BagError(
         fmt::format("{}: begins {} s after the run's start, and the state there is not in it; give the "
                     "recording's first part, or resume from a checkpoint",
-                    path, static_cast<double>(reader.begin().value_or(0)) * 1e-9));
+                    path, mpm::seconds_of(reader.begin().value_or(0))));
   }
   if (rerun.end == 0 && !rerun.failed) throw BagError(path + ": the recording does not reach beyond the run's start");
   return rerun;
@@ -67,7 +67,7 @@ void RerunCheck::look(const mpm::Simulation& simulation) {
 }
 
 std::string RerunCheck::verdict() const {
-  const std::string when = fmt::format("at t = {:g} s", static_cast<double>(rerun_.hashed_at) * 1e-9);
+  const std::string when = fmt::format("at t = {:g} s", mpm::seconds_of(rerun_.hashed_at));
   if (!differences_.empty()) return fmt::format("not compared with the recording: {}", fmt::join(differences_, "; "));
   if (rerun_.state_hash.empty()) return "not compared with the recording, which was cut short and holds no state hash";
   if (hash_.empty()) return fmt::format("the run ended before the recorded state {}", when);

@@ -39,7 +39,7 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
                                          options.ranks,
                                          options.stop,
                                          options.profile}),
-      end_(std::llround(scene.definition.time.end * 1e9)),
+      end_(mpm::nanoseconds_of(scene.definition.time.end)),
       outputs_(simulation_, stamps_, options.output),
       places_(scene.definition.rigid_bodies.size(), Place::outside_yet),
       slowest_wave_(mpm::slowest_wave(scene)),
@@ -179,7 +179,7 @@ void Run::look_for_lost_bodies() {
       warnings_.push_back(
           fmt::format("rigid body '{}' has left the grid at t = {:.6g} s: it is at ({:.3g}, {:.3g}, {:.3g}) m, where "
                       "nothing touches it; end the run before, or enlarge grid.min/grid.max and what it rests on",
-                      body.name(), static_cast<double>(simulation_.time()) * 1e-9, at.x(), at.y(), at.z()));
+                      body.name(), mpm::seconds_of(simulation_.time()), at.x(), at.y(), at.z()));
     }
   }
 }
@@ -201,7 +201,7 @@ void Run::look_for_lost_tips() {
   if (!simulation_.definition().cracks.any()) return;
   const std::vector<mpm::CrackTipReport> tips = simulation_.crack_tips();
   told_of_tips_.resize(tips.size());
-  const double time = static_cast<double>(simulation_.time()) * 1e-9;
+  const double time = mpm::seconds_of(simulation_.time());
   for (std::size_t t = 0; t < tips.size(); ++t) {
     const mpm::CrackTipReport& tip = tips[t];
     ToldOfTip& told = told_of_tips_[t];
@@ -229,14 +229,14 @@ void Run::look_for_soft_sweeps() {
       "at t = {:.6g} s the pressure on a tool has come to 1/{:.2g} of the modulus that the sweeps of a step resolve; "
       "above 1/{:.2g} the force on it is too small: leave method.sweeps out, write a longer time.budget where that "
       "ends sweeps, or a shorter time.step",
-      static_cast<double>(simulation_.time()) * 1e-9, 1.0 / load->value, 1.0 / mpm::kMostSweepLoad));
+      mpm::seconds_of(simulation_.time()), 1.0 / load->value, 1.0 / mpm::kMostSweepLoad));
 }
 
 std::vector<std::string> Run::take_warnings() { return std::exchange(warnings_, {}); }
 
 double Run::real_time_factor() const {
   const double wall = std::chrono::duration<double>(wall_).count();
-  return wall > 0.0 ? static_cast<double>(simulation_.time() - from_) * 1e-9 / wall : 0.0;
+  return wall > 0.0 ? mpm::seconds_of(simulation_.time() - from_) / wall : 0.0;
 }
 
 std::string Run::bag() const {

@@ -23,7 +23,7 @@ namespace {
 
 /// A period [s] as whole sync periods, at least one [ns].
 std::int64_t in_syncs(double period, std::int64_t sync) {
-  return sync * std::max<std::int64_t>(1, std::llround(period * 1e9 / static_cast<double>(sync)));
+  return sync * std::max<std::int64_t>(1, std::llround(period * mpm::kNanosecondsOfSecond / static_cast<double>(sync)));
 }
 
 /// The longest contact arrow, as a part of the domain's longest edge.
@@ -64,7 +64,7 @@ RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, con
   info.scene_path = absolute_path(scene.path);
   info.files = scene_files(scene.text, scene.path);
   info.isa = simulation.isa();
-  info.sync_period = static_cast<double>(simulation.sync_period()) * 1e-9;
+  info.sync_period = mpm::seconds_of(simulation.sync_period());
   info.start = stamps.origin();
   info.version = mpm::build_version();
   info.parameters = parameters;
@@ -90,7 +90,7 @@ RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, Output
   }
   if (mpm::Simulation::needs_start(options_.particles.fields)) simulation.keep_start();
   if (options_.wrench_cutoff > 0.0) {
-    const double period = static_cast<double>(simulation.sync_period()) * 1e-9;
+    const double period = mpm::seconds_of(simulation.sync_period());
     if (!(options_.wrench_cutoff < 0.5 / period)) {
       throw mpm::DefinitionError(fmt::format(
           "the cutoff of the filtered wrenches, {} Hz, is not below half of the rate of sync points, {} Hz; "

@@ -88,7 +88,7 @@ class OfflineRun {
     open_sinks();
     if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
       throw mpm::SceneError(fmt::format("--end: '{}' is before the checkpoint's time of {:g} s; write a later one",
-                                        options_.end, static_cast<double>(run_->simulation().time()) * 1e-9));
+                                        options_.end, mpm::seconds_of(run_->simulation().time())));
     }
     commands_.skip_to(run_->simulation().time());
     if (check_ && run_->simulation().time() > rerun_->hashed_at)
@@ -99,7 +99,7 @@ class OfflineRun {
     const mpm::Simulation& simulation = run_->simulation();
     if (!options_.resume.empty() && run_->ended()) {
       err << fmt::format("note: the checkpoint is of t = {:g} s, where the run ends already; nothing is computed\n",
-                         static_cast<double>(simulation.time()) / 1e9);
+                         mpm::nearest_seconds(simulation.time()));
     }
     for (const std::string& line : aim_.news) err << line << "\n";
     for (const std::string& warning : aim_.warnings) err << "warning: " << warning << "\n";
@@ -116,7 +116,8 @@ class OfflineRun {
     ProgressBar progress(err, bar);
     const double end = static_cast<double>(run_->end());
     const auto where = [&] {
-      return fmt::format("t = {:.4g} of {:.4g} s", static_cast<double>(simulation.time()) / 1e9, end / 1e9);
+      return fmt::format("t = {:.4g} of {:.4g} s", mpm::nearest_seconds(simulation.time()),
+                         end / mpm::kNanosecondsOfSecond);
     };
     for (const std::string& note : notes_) err << note << "\n";
     const bool shown = run_->recorder() != nullptr;
@@ -162,7 +163,7 @@ class OfflineRun {
         }
         progress.clear();
         if (!run_->ended()) {
-          err << fmt::format("stopped at t = {:g} s, before the end\n", static_cast<double>(simulation.time()) / 1e9);
+          err << fmt::format("stopped at t = {:g} s, before the end\n", mpm::nearest_seconds(simulation.time()));
           if (check_) check_->differs("it was stopped before its end");
         }
         run_->finish();
@@ -221,7 +222,7 @@ class OfflineRun {
     notes_.push_back(
         fmt::format("{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s",
                     info.scene, info.version, info.isa, rerun_->commands.size(),
-                    rerun_->commands.size() == 1 ? "" : "s", static_cast<double>(rerun_->end) * 1e-9));
+                    rerun_->commands.size() == 1 ? "" : "s", mpm::seconds_of(rerun_->end)));
     for (const std::string& change : changed_files(info.files, info.scene_path)) {
       notes_.push_back("warning: " + change);
       check_->differs("a file of the scene has changed");

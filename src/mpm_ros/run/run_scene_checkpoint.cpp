@@ -47,7 +47,7 @@ void resume_from(const std::string& path, RunOptions& options) {
   if (options.isa == "auto") options.isa = about.isa;
   options.resume = path;
   options.parameters += fmt::format("resumed_from: {}\nresumed_at: {:.9f}\n", mpm::json_text(nlohmann::json(path)),
-                                    static_cast<double>(about.time) * 1e-9);
+                                    mpm::seconds_of(about.time));
 }
 
 std::string part_of_checkpoint(const std::string& path) { return path + ".part"; }
@@ -71,7 +71,7 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
       throw mpm::SceneError(fmt::format(
           "--checkpoint-every: '{}' is not between 0 and 1e9 s; write a time such as 0.5 s", options.checkpoint_every));
     }
-    const double periods = std::round(period * 1e9 / static_cast<double>(sync_period));
+    const double periods = std::round(period * mpm::kNanosecondsOfSecond / static_cast<double>(sync_period));
     period_ = sync_period * std::max<std::int64_t>(1, static_cast<std::int64_t>(periods));
   }
   if (!path_.empty()) try_path(options.ranks.get());  // told before hours of work
@@ -125,7 +125,7 @@ void RunSceneCheckpoints::at_sync(Run& run, std::ostream& err) {
 void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
   if (path_.empty()) return;
   run.save(path_);
-  out << fmt::format("  checkpoint {} at t = {:g} s\n", path_, static_cast<double>(run.simulation().time()) * 1e-9);
+  out << fmt::format("  checkpoint {} at t = {:g} s\n", path_, mpm::seconds_of(run.simulation().time()));
 }
 
 void RunSceneCheckpoints::at_failure(Run& run, const std::string& reason, std::ostream& err) {

@@ -52,8 +52,4 @@ void CsvSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessag
   origins_ = origins_of(message);
 }
 
-// Not wanted.
-void CsvSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
-void CsvSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
-
 }  // namespace mpm_ros

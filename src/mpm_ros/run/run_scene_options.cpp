@@ -34,7 +34,7 @@ mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
   mpm::Scene scene = mpm::parse_scene(rerun.info.scene_text, rerun.info.scene_path, options.set);
   // Gives a run that failed the time to fail again.
   const std::int64_t after = rerun.failed ? 2 * scene.definition.time.sync : 0;
-  scene.definition.time.end = static_cast<double>(rerun.end + after) * 1e-9;
+  scene.definition.time.end = mpm::seconds_of(rerun.end + after);
   return scene;
 }
 
@@ -144,7 +144,7 @@ void read_split(const std::string& text, BagOptions& bag) {
     throw mpm::SceneError(fmt::format(
         "--bag-split: '{}' is neither a size nor a time with its unit; write one such as 500 MB or 10 s", text));
   }
-  bag.split_duration = std::llround(time * 1e9);
+  bag.split_duration = mpm::nanoseconds_of(time);
 }
 
 std::string thread_warning(int threads) {

@@ -90,7 +90,7 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       sharing(simulation.sharing()),
       state(simulation.state()),
       start(start),
-      end(std::llround(scene.definition.time.end * 1e9)),
+      end(mpm::nanoseconds_of(scene.definition.time.end)),
       cut_short(cut_short),
       state_hash(cut_short ? 0 : simulation.state_hash()),
       peak_memory(peak_memory_bytes(simulation.ranks())),

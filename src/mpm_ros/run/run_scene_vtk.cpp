@@ -97,7 +97,7 @@ void VtkSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessag
 void VtkSink::put(const std::string&, const ros::Time&, const Cracks& message) { cracks_ = message; }
 
 void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
-  const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
+  const double time = mpm::seconds_of(stamps_.time_of(stamp));
   const auto origin = origins_.find(message.header.frame_id);
   const bool fine = origin != origins_.end();
   const VtkFile file =
@@ -160,12 +160,5 @@ void VtkSink::list(const std::string& stem, const std::string& name, int part, d
                        xml_text(stem), xml_text(name))
         << kListEnd << std::flush;
 }
-
-// Not wanted.
-void VtkSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const ContactForces&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const SolverState&) {}
-void VtkSink::put(const std::string&, const ros::Time&, const Command&) {}
 
 }  // namespace mpm_ros

@@ -12,8 +12,6 @@ namespace {
 constexpr double kTooFast = 0.2;  // part of the speed of an elastic wave
 constexpr double kSlower = 0.97;  // part of the particles that are slower than what falls
 
-double seconds_of(const Simulation& simulation) { return 1e-9 * static_cast<double>(simulation.time()); }
-
 }  // namespace
 
 void compare(double value, ForceRow& row) {
@@ -40,7 +38,7 @@ double mean_velocity(const Simulation& simulation, std::vector<double>& values) 
 
 void SeriesMeasure::look(Simulation& simulation) {
   check_speed(simulation, problem_.wave_speed, scratch_);
-  const double time = seconds_of(simulation), value = read_(simulation);
+  const double time = seconds_of(simulation.time()), value = read_(simulation);
   if (time < problem_.from) return;
   time_.push_back(time);
   value_.push_back(value);
@@ -68,7 +66,7 @@ void CollapseMeasure::look(Simulation& simulation) {
   check_speed(simulation, problem_.wave_speed, scratch_);
   const auto rank = scratch_.begin() + static_cast<std::ptrdiff_t>(kSlower * static_cast<double>(scratch_.size()));
   std::nth_element(scratch_.begin(), rank, scratch_.end());
-  last_time_ = seconds_of(simulation);
+  last_time_ = seconds_of(simulation.time());
   last_speed_ = *rank;
   curve_.emplace_back(rate_ * last_time_ / problem_.answer.upper, last_speed_);
 }

@@ -143,12 +143,12 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
     row.particles = simulation.particles();
     const EnergyReport before_run = simulation.state().energy;
     measure->look(simulation);
-    const std::int64_t end = std::llround(1e9 * simulation.definition().time.end);
+    const std::int64_t end = nanoseconds_of(simulation.definition().time.end);
     while (!measure->done() && simulation.time() < end) {
       const double before = processor_time();
       simulation.advance();
       spent += processor_time() - before;
-      simulated = 1e-9 * static_cast<double>(simulation.time());
+      simulated = seconds_of(simulation.time());
       row.steps = simulation.state().step.steps;
       measure->look(simulation);
     }

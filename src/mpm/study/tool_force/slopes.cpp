@@ -60,7 +60,7 @@ Problem layer(const std::string& name, const std::string& title, const std::stri
 std::function<std::unique_ptr<Measure>(const Problem&, double)> growth_of(double driven, double scale, double sign) {
   return [=](const Problem& problem, double) -> std::unique_ptr<Measure> {
     const auto read = [=, scratch = std::vector<double>()](Simulation& simulation) mutable {
-      const double time = 1e-9 * static_cast<double>(simulation.time());
+      const double time = seconds_of(simulation.time());
       return scale * (driven * time + sign * mean_velocity(simulation, scratch));
     };
     return std::make_unique<SeriesMeasure>(problem, SeriesMeasure::Kind::growth, read);

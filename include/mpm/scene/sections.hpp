@@ -29,12 +29,11 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene);
 void read_damping(const Value& value, Scene& scene);
 /// `materials`
 void read_materials(const Map& root, Scene& scene);
-/// The constants of a law of `materials`, after `grid`
-Elasticity read_elasticity(const Map& map);
-LawDefinition read_drucker_prager(const Map& map, Scene& scene);
-LawDefinition read_mohr_coulomb(const Map& map, Scene& scene);
-/// The constants of a material whose `law` is norsand.
-LawDefinition read_norsand(const Map& map, Scene& scene);
+/// Completes a law of `materials` whose keys are read: what other keys stand for, and what follows from the grid. After
+/// `grid`
+void complete_law(const Map& map, Scene& scene, DruckerPragerDefinition& law);
+void complete_law(const Map& map, Scene& scene, MohrCoulombDefinition& law);
+void complete_law(const Map& map, Scene& scene, NorSandDefinition& law);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
 /// The `region` of a load or condition.
@@ -130,8 +129,6 @@ void add_fracture_keys(const Value& material, const Map& root, std::vector<std::
 FractureConstants read_fracture_constants(const Map& map, const CracksDefinition& cracks);
 /// Two numbers along x and z.
 Vec2 read_plane_vector(const Value& value, const Dimension& dimension);
-/// `true` or `false`.
-bool read_truth(const Value& value);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 

@@ -230,7 +230,7 @@ CrackDefinition read_crack(const Value& value, const Scene& scene) {
   crack.points = read_chain(map, scene);
   read_end(map, "start", scene, crack.ends[0], crack.tip_materials[0]);
   read_end(map, "end", scene, crack.ends[1], crack.tip_materials[1]);
-  if (const auto fixed = map.find("fixed")) crack.fixed = read_truth(*fixed);
+  if (const auto fixed = map.find("fixed")) crack.fixed = fixed->truth();
   if (const auto thickness = map.find("thickness")) {
     if (axisymmetric(scene.definition.geometry)) {
       thickness->fail("about an axis a crack goes all the way round; leave it out");

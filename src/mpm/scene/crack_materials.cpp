@@ -87,7 +87,7 @@ FractureConstants read_fracture_constants(const Map& material, const CracksDefin
     read.way = {vector.x(), vector.y()};
   }
   if (const auto part = map.find("plastic_part")) read.plastic_part = part->non_negative(kPlain);
-  if (const auto keeps = map.find("keeps_tips")) read.keeps_tips = read_truth(*keeps);
+  if (const auto keeps = map.find("keeps_tips")) read.keeps_tips = keeps->truth();
   return read;
 }
 

@@ -62,7 +62,7 @@ void read_settings(const Map& map, GeometryKind geometry, CracksDefinition& crac
   if (const auto move = map.find("move")) {
     cracks.move = static_cast<CracksDefinition::Move>(move->choice({"average", "centre_of_mass"}));
   }
-  if (const auto prevent = map.find("prevent")) cracks.prevent = read_truth(*prevent);
+  if (const auto prevent = map.find("prevent")) cracks.prevent = prevent->truth();
   if (axisymmetric(geometry)) cracks.split = CracksDefinition::Split::openings;
   if (const auto split = map.find("split")) {
     cracks.split = static_cast<CracksDefinition::Split>(split->choice({"interaction", "openings"}));
@@ -97,8 +97,6 @@ Vec2 read_plane_vector(const Value& value, const Dimension& dimension) {
   const Vec3 vector = value.vector(dimension);
   return {vector.x(), vector.z()};
 }
-
-bool read_truth(const Value& value) { return value.choice({"false", "true"}) == 1; }
 
 bool cracks_may_grow(const Map& root) {
   const auto section = root.find("cracks");

@@ -40,6 +40,9 @@ inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
 inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
 inline constexpr Dimension kPerKelvin{0, 0, 0, 0, -1};
 inline constexpr Dimension kPerPascal{1, -1, 2, 0, 0};
+inline constexpr Dimension kInertia{2, 1, 0, 0};
+inline constexpr Dimension kTorque{2, 1, -2, 0};
+inline constexpr Dimension kStiffness{-2, 1, -2, 0};     ///< traction over displacement
 inline constexpr Dimension kToughness{-0.5, 1, -2, 0};   ///< toughness of fracture, K
 inline constexpr Dimension kSurfaceEnergy{0, 1, -2, 0};  ///< energy over area, J and G
 

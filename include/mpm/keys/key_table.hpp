@@ -27,7 +27,7 @@ struct Later {
   std::string advice;
 };
 
-/// What is wrong in a section, and at which key; without a key, with the section as a whole.
+/// Fault of a section: its key, or a path to it within the section, and what is wrong and what to write instead.
 struct KeyFault {
   std::string key, text;
 };

@@ -18,9 +18,9 @@ struct Range {
   bool or_none = false;  ///< true if scenes may write `none`, which is infinity: without a limit
   double unset = kNan;   ///< value of definitions that stands for a key that is left out; NaN: none does
 
-  /// What is wrong with a value of a scene, such as "is not greater than 0"; empty for one in the interval.
+  /// Returns what is wrong with a value of a scene, such as "is not greater than 0"; empty for one in the interval.
   std::string fault(double value, const Dimension& dimension) const;
-  /// In words after a noun: "above 0", "from 0 to below 90 deg"; empty for all numbers.
+  /// Words that follow a noun: "above 0", "from 0 to below 90 deg"; empty for all numbers.
   std::string words(const Dimension& dimension) const;
   /// The same for the pages, with a sign where one suffices: "> 0".
   std::string signs(const Dimension& dimension) const;

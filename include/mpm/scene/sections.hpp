@@ -49,9 +49,8 @@ void read_rigid_bodies(const Map& root, Scene& scene);
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
 /// `contact.pairs`, after rigid bodies. Deformable bodies that have a law with others get velocity fields of their own.
 void read_contact_pairs(const Map& root, Scene& scene);
-/// The keys of a law of contact, and the law that they say. `needs_friction`: whether friction has to be written, as
-/// for a pair; without it surfaces are smooth.
-const std::vector<std::string>& contact_law_keys();
+/// The law of contact that the keys say. `needs_friction`: whether friction has to be written, as for a pair; without
+/// it surfaces are smooth.
 ContactLaw read_contact_law(const Map& map, bool needs_friction);
 /// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition.
 void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);

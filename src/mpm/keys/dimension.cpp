@@ -35,6 +35,13 @@ const std::array kDimensions = {
     DimensionText{kPower, "a power", "3 W", "W"},
     DimensionText{kViscosity, "a viscosity", "1 Pa s", "Pa s"},
     DimensionText{kTemperature, "a temperature", "293 K", "K"},
+    DimensionText{kSurfaceEnergy, "an energy over area", "8 J/m^2", "J/m^2"},
+    DimensionText{kStiffness, "a pressure over length", "2 MPa/mm", "Pa/m"},
+    DimensionText{kInertia, "a moment of inertia", "0.1 kg m^2", "kg m^2"},
+    DimensionText{{0, 1, -3, 0, -1}, "a conductance of heat", "2000 W/(m^2 K)", "W/(m^2 K)"},
+    DimensionText{{2, 1, -2, 0, -1}, "a heat capacity of a body", "12 J/K", "J/K"},
+    DimensionText{{1, -1, 1, 0, 0}, "a speed over energy over area", "0.1 m^3/(J s)", "m^3/(J s)"},
+    DimensionText{{-2, 0, 0, 0, 0}, "a number over area", "100 1/m^2", "1/m^2"},
     DimensionText{kHeatCapacity, "a heat capacity", "450 J/(kg K)", "J/(kg K)"},
 };
 

@@ -75,7 +75,11 @@ struct TypeOf {
   std::string operator()(const Vec3*) const { return number_type(info, "vector, "); }
   std::string operator()(const Function*) const { return number_type(info, "function, "); }
   std::string operator()(const std::array<Function, 3>*) const { return number_type(info, "vector of functions, "); }
-  std::string operator()(const WordPlace&) const { return fmt::format("`{}`", fmt::join(info.words, "`, `")); }
+  std::string operator()(const WordPlace&) const {
+    std::string text = fmt::format("`{}`", fmt::join(info.words, "`, `"));
+    for (const auto& [alias, index] : info.aliases) text += fmt::format("; `{}` is `{}`", alias, info.words[index]);
+    return text;
+  }
 };
 
 }  // namespace
@@ -93,7 +97,7 @@ std::string fault_in(const KeyInfo& info, const KeyPlace& place) {
 std::string type_in(const KeyInfo& info, const KeyPlace& place) { return std::visit(TypeOf{info}, place); }
 
 std::string value_in(const KeyInfo& info, const KeyPlace& place) {
-  if (const auto* word = std::get_if<WordPlace>(&place)) return info.words.at(word->index);
+  if (const auto* word = std::get_if<WordPlace>(&place)) return word->index ? info.words.at(*word->index) : "";
   return std::visit(
       [&](const auto& at) -> std::string {
         if constexpr (std::is_pointer_v<std::decay_t<decltype(at)>>) return value_of(*at, info);

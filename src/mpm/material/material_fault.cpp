@@ -1,4 +1,4 @@
-// What has to hold between the constants of a law; the range of each alone is in its keys.
+// Conditions that have to hold between the constants of a law; the range of each alone is in its keys.
 #include <fmt/core.h>
 
 #include <cmath>

@@ -303,7 +303,12 @@ struct Reading {
   void operator()(Vec3* place) const { *place = value.vector(key.dimension); }
   void operator()(Function* place) const { *place = value.function(key.dimension, FunctionPlaces::present, key.range); }
   void operator()(std::array<Function, 3>* place) const { *place = value.functions(key.dimension); }
-  void operator()(const WordPlace& place) const { place.take(value.choice(key.words)); }
+  void operator()(const WordPlace& place) const {
+    std::vector<std::string> words = key.words;
+    for (const auto& [alias, index] : key.aliases) words.push_back(alias);
+    const std::size_t found = value.choice(words), own = key.words.size();
+    place.take(found < own ? found : key.aliases[found - own].second);
+  }
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <new>
 
+#include "mpm/scene/all_keys.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
   mpm_ros::RunSceneOptions options;
   bool list = false;
   bool explain = false;
+  std::string keys;
   CLI::App app("Runs a scene without a ROS master, as fast as possible.");
   auto* scene = app.add_option("SCENE", options.scene, "a shipped scene's name (--list), or a path to a YAML file");
   app.add_option("--bag", options.bag, "record everything to this bag; auto: a new name in this folder");
@@ -91,6 +93,9 @@ int main(int argc, char** argv) {
   app.add_flag("--profile", options.profile,
                "tell at the end where the wall time went: seconds, share and calls by name");
   app.add_flag("--list", list, "list the shipped scenes, and exit");
+  auto* keys_option =
+      app.add_option("--keys", keys, "print the keys of a section of scenes, of a law, or of all, and exit")
+          ->expected(0, 1);
   app.add_flag("--explain", explain, "report what was chosen for the scene and why, and exit");
   try {
     app.parse(argc, argv);
@@ -101,7 +106,8 @@ int main(int argc, char** argv) {
       if (!plan->empty() && !option->empty() && !goes)
         throw CLI::ValidationError(name, "not with --sweep: the plan says what is set and what is recorded");
     }
-    if (!list && plan->empty() && scene->empty() && options.from_bag.empty() && options.resume.empty())
+    if (!list && keys_option->empty() && plan->empty() && scene->empty() && options.from_bag.empty() &&
+        options.resume.empty())
       throw CLI::RequiredError("SCENE (--list names those that are shipped)");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
@@ -110,6 +116,10 @@ int main(int argc, char** argv) {
   try {
     if (list) {
       mpm_ros::list_scenes(std::cout);
+      return 0;
+    }
+    if (!keys_option->empty()) {
+      std::cout << mpm::keys_text(keys);
       return 0;
     }
     if (!sweep.plan.empty()) {

@@ -56,7 +56,7 @@ TEST(MaterialDefinition, Density) {
   }
   MaterialDefinition material = soil();
   material.density = -1.0;
-  EXPECT_EQ(refusal(material), "material 'soil': density is -1 kg/m^3; it must be positive and finite");
+  EXPECT_EQ(refusal(material), "material 'soil': density: -1 kg/m^3 is not greater than 0");
 }
 
 TEST(MaterialDefinition, SoilNeedsSomeStrength) {
@@ -92,10 +92,8 @@ TEST(MaterialDefinition, ElasticConstantsOfEveryLaw) {
     for (const double young : {0.0, -1.0, kNan, kInfinity}) EXPECT_NE(refusal({"m", 1.0, law({young, 0.3})}), "");
     for (const double poisson : {-1.0, -2.0, 0.5, 0.6, kNan}) EXPECT_NE(refusal({"m", 1.0, law({1.0, poisson})}), "");
   }
-  EXPECT_EQ(refusal({"m", 1.0, NeoHookeanDefinition{{1.0, 0.5}}}),
-            "material 'm': Poisson's ratio is 0.5; it must lie between -1 and 0.5, both excluded");
-  EXPECT_EQ(refusal({"m", 1.0, NeoHookeanDefinition{{0.0, 0.3}}}),
-            "material 'm': Young's modulus is 0 Pa; it must be positive and finite");
+  EXPECT_EQ(refusal({"m", 1.0, NeoHookeanDefinition{{1.0, 0.5}}}), "material 'm': poisson: 0.5 is not below 0.5");
+  EXPECT_EQ(refusal({"m", 1.0, NeoHookeanDefinition{{0.0, 0.3}}}), "material 'm': young: 0 is not greater than 0");
 }
 
 TEST(MaterialDefinition, SoilAngles) {
@@ -103,9 +101,9 @@ TEST(MaterialDefinition, SoilAngles) {
   EXPECT_EQ(soil_with(&Law::dilation_angle, 30.0 * kDegree), "");  // associated
   EXPECT_EQ(soil_with(&Law::dilation_angle, 0.0), "");
   EXPECT_EQ(soil_with(&Law::dilation_angle, 31.0 * kDegree),
-            "material 'soil': dilation angle is 31 degrees; it must lie from 0 to the friction angle, 30");
+            "material 'soil': dilation_angle: 31 deg is more than friction_angle, 30 deg");
   EXPECT_EQ(soil_with(&Law::friction_angle, 90.0 * kDegree),
-            "material 'soil': friction angle is 90 degrees; it must lie from 0 to below 90");
+            "material 'soil': friction_angle: 90 deg is not below 90 deg");
   for (const double bad : {-1.0 * kDegree, 30.0, kNan}) EXPECT_NE(soil_with(&Law::friction_angle, bad), "") << bad;
   for (const double bad : {-1.0 * kDegree, kNan}) EXPECT_NE(soil_with(&Law::dilation_angle, bad), "") << bad;
 }
@@ -113,16 +111,16 @@ TEST(MaterialDefinition, SoilAngles) {
 TEST(MaterialDefinition, DilationLimitCohesionAndTensionCutoff) {
   using Law = DruckerPragerDefinition;
   EXPECT_EQ(soil_with(&Law::dilation_limit, kInfinity), "");  // none
-  EXPECT_EQ(soil_with(&Law::dilation_limit, 0.0), "material 'soil': dilation limit is 0; it must be positive");
+  EXPECT_EQ(soil_with(&Law::dilation_limit, 0.0), "material 'soil': dilation_limit: 0 is not greater than 0");
   for (const double bad : {-1.0, kNan}) EXPECT_NE(soil_with(&Law::dilation_limit, bad), "") << bad;
   EXPECT_EQ(soil_with(&Law::cohesion, 0.0), "");
   for (const double bad : {-1.0, kNan, kInfinity}) EXPECT_NE(soil_with(&Law::cohesion, bad), "") << bad;
   // Apex by hand: 1000 Pa / tan(30 degrees) = 1000 sqrt(3) Pa.
   EXPECT_EQ(soil_with(&Law::tension_cutoff, 1000.0 * std::sqrt(3.0)), "");
   EXPECT_EQ(soil_with(&Law::tension_cutoff, 0.0), "");
-  EXPECT_EQ(soil_with(&Law::tension_cutoff, 1733.0),
-            "material 'soil': tension cut-off is 1733 Pa; it must not lie above the cone's apex, cohesion / "
-            "tan(friction angle) = 1732.05 Pa");
+  EXPECT_EQ(
+      soil_with(&Law::tension_cutoff, 1733.0),
+      "material 'soil': tension_cutoff: 1733 Pa is more than the apex, cohesion / tan(friction_angle), 1732.05 Pa");
   for (const double bad : {kNan, kInfinity, -kInfinity}) EXPECT_NE(soil_with(&Law::tension_cutoff, bad), "") << bad;
   // Clay without friction has no apex: any finite cut-off stands.
   MaterialDefinition clay = soil();
@@ -142,17 +140,17 @@ TEST(MaterialDefinition, Softening) {
   EXPECT_EQ(with({0.01, 0.05, 20.0 * kDegree, 0.0}), "");
   EXPECT_EQ(with({0.01, 0.05, friction, 1000.0}), "");  // dilation alone
   EXPECT_EQ(with({0.01, 0.0, 20.0 * kDegree, 0.0}),
-            "material 'soil': shear band is 0 m; strength that falls over a slip and dilation that ends at a rise need "
-            "the width of a shear band as the grid resolves it: write the edge of a cell");
+            "material 'soil': shear_band: strength that falls over a slip and dilation that ends at a rise need the "
+            "width of a shear band as the grid resolves it: write the edge of a cell");
   EXPECT_EQ(with({0.01, 0.05, 31.0 * kDegree, 0.0}),
-            "material 'soil': residual friction angle is 31 degrees; it must lie from 0 to the friction angle, 30");
+            "material 'soil': residual_friction_angle: 31 deg is more than friction_angle, 30 deg");
   EXPECT_EQ(with({0.01, 0.05, friction, 1001.0}),
-            "material 'soil': residual cohesion is 1001 Pa; it must lie from 0 to the cohesion, 1000 Pa");
+            "material 'soil': residual_cohesion: 1001 Pa is more than cohesion, 1000 Pa");
   EXPECT_NE(with({0.01, 0.05, 0.0, 0.0}).find("ends without any strength"), std::string::npos);
   // (1000 cos 30 - 0) / G = 866 Pa / 384.6 kPa of 1 m.
   EXPECT_EQ(with({0.002, 1.0, 20.0 * kDegree, 0.0}),
-            "material 'soil': softening slip is 0.002 m; over a band of 1 m cohesion then falls faster than the soil "
-            "can unload: write more than 0.00225 m, or use smaller cells");
+            "material 'soil': softening_slip: over 0.002 m and a band of 1 m cohesion falls faster than the soil can "
+            "unload: write more than 0.00225 m, or use smaller cells");
   for (const double bad : {-1.0, kNan, kInfinity}) {
     EXPECT_NE(with({bad, 0.05, 20.0 * kDegree, 0.0}), "") << bad;
     EXPECT_NE(with({0.01, bad, 20.0 * kDegree, 0.0}), "") << bad;
@@ -163,7 +161,7 @@ TEST(MaterialDefinition, Softening) {
   auto& law = std::get<DruckerPragerDefinition>(sand.law);
   law.dilation_angle = 0.0;
   law.softening = {0.01, 0.05, friction, 1000.0};
-  EXPECT_NE(refusal(sand).find("nothing falls over it"), std::string::npos);
+  EXPECT_NE(refusal(sand).find("nothing falls over the"), std::string::npos);
 }
 
 // Dilation ends at the rise over the width of the band on the grid, or at the limit of the soil.
@@ -177,9 +175,9 @@ TEST(MaterialDefinition, DilationRise) {
   };
   EXPECT_EQ(with(1e-3, 0.05), "");
   EXPECT_EQ(with(kInfinity, 0.0), "");  // none
-  EXPECT_EQ(with(0.0, 0.05), "material 'soil': dilation rise is 0 m; it must be positive");
+  EXPECT_EQ(with(0.0, 0.05), "material 'soil': dilation_rise: 0 is not greater than 0");
   for (const double bad : {-1e-3, kNan}) EXPECT_NE(with(bad, 0.05), "") << bad;
-  EXPECT_NE(with(1e-3, 0.0).find("shear band is 0 m;"), std::string::npos);
+  EXPECT_NE(with(1e-3, 0.0).find("shear_band: "), std::string::npos);
   SoilSoftening softening;
   EXPECT_EQ(softening.dilation_limit(0.1), 0.1);
   softening.rise = 1e-3;
@@ -195,10 +193,9 @@ TEST(MaterialDefinition, Metal) {
   };
   EXPECT_EQ(metal(1e8, 0.0, 0.0, 0.0), "");
   EXPECT_EQ(metal(1e8, 1e9, 1e8, 5.0), "");  // saturated from the start
-  EXPECT_EQ(metal(0.0, 0.0, 0.0, 0.0), "material 'm': yield stress is 0 Pa; it must be positive and finite");
-  EXPECT_EQ(metal(1e8, 0.0, 9e7, 5.0),
-            "material 'm': saturation stress is 9e+07 Pa; it must be finite and not below the yield stress, 1e+08 Pa");
-  EXPECT_EQ(metal(1e8, -1.0, 0.0, 0.0), "material 'm': hardening modulus is -1 Pa; it must be finite and not negative");
+  EXPECT_EQ(metal(0.0, 0.0, 0.0, 0.0), "material 'm': yield_stress: 0 is not greater than 0");
+  EXPECT_EQ(metal(1e8, 0.0, 9e7, 5.0), "material 'm': saturation_stress: 9e+07 Pa is less than yield_stress, 1e+08 Pa");
+  EXPECT_EQ(metal(1e8, -1.0, 0.0, 0.0), "material 'm': hardening_modulus: -1 Pa is less than 0");
   for (const double bad : {-1.0, kNan, kInfinity}) {
     EXPECT_NE(metal(bad, 0.0, 0.0, 0.0), "") << bad;
     EXPECT_NE(metal(1e8, bad, 0.0, 0.0), "") << bad;
@@ -213,9 +210,9 @@ TEST(MaterialDefinition, Fluid) {
   };
   EXPECT_EQ(fluid(2e9, 7.0, 1e-3), "");
   EXPECT_EQ(fluid(2e9, 1.0, 0.0), "");
-  EXPECT_EQ(fluid(2e9, 0.5, 0.0), "material 'm': exponent is 0.5; it must be finite and at least 1");
-  EXPECT_EQ(fluid(2e9, 7.0, -1.0), "material 'm': viscosity is -1 Pa s; it must be finite and not negative");
-  EXPECT_EQ(fluid(0.0, 7.0, 0.0), "material 'm': bulk modulus is 0 Pa; it must be positive and finite");
+  EXPECT_EQ(fluid(2e9, 0.5, 0.0), "material 'm': exponent: 0.5 is less than 1");
+  EXPECT_EQ(fluid(2e9, 7.0, -1.0), "material 'm': viscosity: -1 Pa s is less than 0");
+  EXPECT_EQ(fluid(0.0, 7.0, 0.0), "material 'm': bulk_modulus: 0 is not greater than 0");
   for (const double bad : {-1.0, kNan, kInfinity}) {
     EXPECT_NE(fluid(bad, 7.0, 0.0), "") << bad;
     EXPECT_NE(fluid(2e9, bad, 0.0), "") << bad;
@@ -228,8 +225,8 @@ TEST(MaterialDefinition, Gas) {
     return refusal({"m", 1.2, IdealGasDefinition{pressure, temperature, ratio, GasProcess::adiabatic}});
   };
   EXPECT_EQ(gas(1e5, 293.0, 1.4), "");
-  EXPECT_EQ(gas(1e5, -20.0, 1.4), "material 'm': temperature is -20 K; it is absolute and must be positive and finite");
-  EXPECT_EQ(gas(1e5, 293.0, 1.0), "material 'm': heat capacity ratio is 1; it must be finite and above 1");
+  EXPECT_EQ(gas(1e5, -20.0, 1.4), "material 'm': temperature: -20 K is not greater than 0");
+  EXPECT_EQ(gas(1e5, 293.0, 1.0), "material 'm': heat_capacity_ratio: 1 is not greater than 1");
   for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
     EXPECT_NE(gas(bad, 293.0, 1.4), "") << bad;
     EXPECT_NE(gas(1e5, bad, 1.4), "") << bad;
@@ -242,8 +239,8 @@ TEST(MaterialDefinition, ViscoelasticSolid) {
     return refusal({"m", 100.0, StandardLinearSolidDefinition{{1e4, 0.3}, modulus, time}});
   };
   EXPECT_EQ(solid(1e4, 0.1), "");
-  EXPECT_EQ(solid(0.0, 0.1), "material 'm': branch modulus is 0 Pa; it must be positive and finite");
-  EXPECT_EQ(solid(1e4, 0.0), "material 'm': relaxation time is 0 s; it must be positive and finite");
+  EXPECT_EQ(solid(0.0, 0.1), "material 'm': branch_modulus: 0 is not greater than 0");
+  EXPECT_EQ(solid(1e4, 0.0), "material 'm': relaxation_time: 0 is not greater than 0");
   for (const double bad : {-1.0, kNan, kInfinity}) {
     EXPECT_NE(solid(bad, 0.1), "") << bad;
     EXPECT_NE(solid(1e4, bad), "") << bad;
@@ -273,10 +270,10 @@ TEST(MaterialDefinition, MetalUnderImpact) {
     for (const double bad : {-1.0, kNan, kInfinity}) EXPECT_NE(with(constant, bad), "") << bad;
   }
   EXPECT_EQ(with(&Law::hardening_exponent, 1.0), "");
-  EXPECT_EQ(with(&Law::hardening_exponent, 1.1), "material 'm': n is 1.1; it must lie above 0 and not above 1");
-  EXPECT_EQ(with(&Law::heat_fraction, 1.1), "material 'm': heat fraction is 1.1; it must lie from 0 to 1");
+  EXPECT_EQ(with(&Law::hardening_exponent, 1.1), "material 'm': n: 1.1 is more than 1");
+  EXPECT_EQ(with(&Law::heat_fraction, 1.1), "material 'm': heat_fraction: 1.1 is more than 1");
   EXPECT_EQ(with(&Law::melting_temperature, 293.0),
-            "material 'm': melting temperature is 293 K; it must be finite and above the reference temperature, 293 K");
+            "material 'm': melting_temperature: 293 K is not above reference_temperature, 293 K");
   for (const auto constant : {&MieGrueneisenDefinition::sound_speed, &MieGrueneisenDefinition::hugoniot_slope,
                               &MieGrueneisenDefinition::gamma0}) {
     for (const double bad : {-1.0, kNan, kInfinity}) {

@@ -1,8 +1,8 @@
-// A law as a user adds it: all that a new law needs stands in this file (material/user_law.hpp).
+// A law as a user adds it: all that a new law needs stands in this file (material/add_user_law.hpp).
 #pragma once
 
+#include "mpm/material/add_user_law.hpp"
 #include "mpm/material/linear_elastic.hpp"
-#include "mpm/material/user_law.hpp"
 
 namespace mpm::test {
 
@@ -17,9 +17,10 @@ class Putty : public LawDefaults {
   static constexpr int kHistory = 2, kPlasticStrain = 0, kPlasticWork = 1;
 
   Putty(const UserLawDefinition& d, double density)
-      : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()), strength_(d.constant("strength")) {
-    if (!(strength_ > 0.0)) throw MaterialError("strength is not above 0");
-  }
+      : density_(density),
+        bulk_(d.elasticity.bulk()),
+        shear_(d.elasticity.shear()),
+        strength_(d.constant("strength")) {}
   template <class T, class Matrix, class Symmetric>
   void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
     const Symmetric before = scale_shift(tau, T(density_) / step.j_old, T(0));
@@ -43,6 +44,6 @@ class Putty : public LawDefaults {
  private:
   double density_, bulk_, shear_, strength_;
 };
-inline const bool kAdded = add_user_law<Putty>("putty", {{"strength", "Pa"}});
+inline const bool kAdded = add_user_law<Putty>("putty", {{"strength", kPressure, kPositive}});
 
 }  // namespace mpm::test

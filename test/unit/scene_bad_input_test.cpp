@@ -126,7 +126,8 @@ TEST(SceneBadInput, WrongUnitsAndValues) {
   expect_refused(10, "  transfer: {flip: 1.5}", "method.transfer.flip: '1.5' is not a fraction;");
   expect_refused(10, "  particles_per_cell: 4",
                  "method.particles_per_cell: 4 is not possible; a solid scene has 1, 8 or 27");
-  expect_refused(10, "  gradient_terms: 0", "method.gradient_terms: 0 is not possible; write 1 to 12");
+  expect_refused(10, "  gradient_terms: 0",
+                 "method.gradient_terms: 0 is less than 1; write a whole number from 1 to 12");
   expect_refused(10, "  gradient_terms: 2.5", "method.gradient_terms: '2.5' is not a whole number;");
   expect_refused(10, "  precision: half", "method.precision: 'half' is not known; write one of double, single");
   expect_refused(10, "  damping: -1", "method.damping: '-1' is less than 0;");

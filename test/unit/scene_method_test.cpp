@@ -129,7 +129,7 @@ TEST(SceneMethod, BadTransfersSayWhatToWrite) {
   expect_refused("transfer: {flip: 1.01}", "transfer.flip: '1.01' is not a fraction; write one from 0 (PIC) to 1");
   expect_refused("transfer: {flip: -0.1}", "transfer.flip: '-0.1' is less than 0;");
   expect_refused("average_dilatation: yse", "average_dilatation: 'yse' is not known;");
-  expect_refused("gradient_terms: 13", "gradient_terms: 13 is not possible; write 1 to 12 terms");
+  expect_refused("gradient_terms: 13", "gradient_terms: 13 is more than 12; write a whole number from 1 to 12");
 }
 
 // Impossible combinations are refused with an alternative, and in the same words for a definition made in code.
@@ -243,13 +243,13 @@ TEST(SceneMethod, BadDampingSaysWhatToWrite) {
   expect_refused("damping: {grd: 5}", "damping.grd: unknown key 'grd'; did you mean 'grid'?");
   expect_refused("damping: {particle: -2}", "damping.particle: '-2' is less than 0;");
   expect_refused("damping: {grid: \"5*X\"}", "damping.grid: expression '5*X': unknown name 'X'; write 'x'");
-  expect_refused("damping: {pic: 1.5}", "damping.pic: '1.5' is not a fraction; write one from 0 (FLIP) to 1 (PIC)");
+  expect_refused("damping: {pic: 1.5}", "damping.pic: '1.5' is more than 1; write a number from 0 to 1");
   expect_refused("damping: {grid: 5, placement: node}", "damping.placement: 'node' is not known; write one of update");
   expect_refused("damping: {grid: \"5*x\", placement: force}",
                  "damping.placement: a rate that is a function of place is read at the particles, not at the nodes; "
                  "use placement: update");
-  expect_refused("damping: {feedback: {}}", "damping.feedback: feedback without a gain does nothing; write gain:");
-  expect_refused("damping: {feedback: {target: 1}}", "damping.feedback: feedback without a gain does nothing;");
+  expect_refused("damping: {feedback: {}}", "damping.feedback: the key 'gain' is missing; add it");
+  expect_refused("damping: {feedback: {target: 1}}", "damping.feedback: the key 'gain' is missing; add it");
   expect_refused("damping: {feedback: {gain: 0}}", "damping.feedback.gain: '0' is not greater than 0;");
   expect_refused("damping: {feedback: {gain: 1, limit: 0}}", "damping.feedback.limit: '0' is not greater than 0;");
   expect_refused("damping: {feedback: {gain: 1, target: \"x\"}}",

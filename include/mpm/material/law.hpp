@@ -48,7 +48,7 @@ template <class OneLaw>
 LawTraits traits_of(const OneLaw&) {
   return kTraitsOf<OneLaw>;
 }
-inline LawTraits traits_of(const UserLaw& law) { return law.kind().traits; }
+LawTraits traits_of(const UserLaw& law);
 inline LawTraits traits_of(const Law& law) {
   return std::visit([](const auto& own) { return traits_of(own); }, law);
 }

@@ -29,12 +29,11 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene);
 void read_damping(const Value& value, Scene& scene);
 /// `materials`
 void read_materials(const Map& root, Scene& scene);
-/// The constants of a law of `materials`, after `grid`
-Elasticity read_elasticity(const Map& map);
-LawDefinition read_drucker_prager(const Map& map, Scene& scene);
-LawDefinition read_mohr_coulomb(const Map& map, Scene& scene);
-/// The constants of a material whose `law` is norsand.
-LawDefinition read_norsand(const Map& map, Scene& scene);
+/// Completes a law of `materials` whose keys are read: what other keys stand for, and what follows from the grid. After
+/// `grid`
+void complete_law(const Map& map, Scene& scene, DruckerPragerDefinition& law);
+void complete_law(const Map& map, Scene& scene, MohrCoulombDefinition& law);
+void complete_law(const Map& map, Scene& scene, NorSandDefinition& law);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
 /// The `region` of a load or condition.
@@ -50,9 +49,8 @@ void read_rigid_bodies(const Map& root, Scene& scene);
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
 /// `contact.pairs`, after rigid bodies. Deformable bodies that have a law with others get velocity fields of their own.
 void read_contact_pairs(const Map& root, Scene& scene);
-/// The keys of a law of contact, and the law that they say. `needs_friction`: whether friction has to be written, as
-/// for a pair; without it surfaces are smooth.
-const std::vector<std::string>& contact_law_keys();
+/// The law of contact that the keys say. `needs_friction`: whether friction has to be written, as for a pair; without
+/// it surfaces are smooth.
 ContactLaw read_contact_law(const Map& map, bool needs_friction);
 /// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition.
 void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
@@ -130,8 +128,6 @@ void add_fracture_keys(const Value& material, const Map& root, std::vector<std::
 FractureConstants read_fracture_constants(const Map& map, const CracksDefinition& cracks);
 /// Two numbers along x and z.
 Vec2 read_plane_vector(const Value& value, const Dimension& dimension);
-/// `true` or `false`.
-bool read_truth(const Value& value);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 

@@ -1,8 +1,9 @@
-// Units: quantities as text ("2300 MPa"), consistent unit systems, and the dimension that a key expects.
+// Units: quantities as text ("2300 MPa") and consistent unit systems.
 #pragma once
 
 #include <string>
 
+#include "mpm/keys/dimension.hpp"
 #include "mpm/math/error.hpp"
 
 namespace mpm {
@@ -12,48 +13,6 @@ class UnitError : public Error {
  public:
   using Error::Error;
 };
-
-/// Exponents of the base dimensions, whole numbers and halves (a toughness is in MPa m^0.5). Angle is one of them, so
-/// that degrees are refused where a plain number is expected.
-struct Dimension {
-  double length = 0;
-  double mass = 0;
-  double time = 0;
-  double angle = 0;
-  double temperature = 0;
-  friend bool operator==(const Dimension& a, const Dimension& b) {
-    return a.length == b.length && a.mass == b.mass && a.time == b.time && a.angle == b.angle &&
-           a.temperature == b.temperature;
-  }
-};
-
-inline constexpr Dimension kPlain{};
-inline constexpr Dimension kLength{1, 0, 0, 0};
-inline constexpr Dimension kArea{2, 0, 0, 0};
-inline constexpr Dimension kMass{0, 1, 0, 0};
-inline constexpr Dimension kTime{0, 0, 1, 0};
-inline constexpr Dimension kAngle{0, 0, 0, 1};
-inline constexpr Dimension kRate{0, 0, -1, 0};
-inline constexpr Dimension kAngularRate{0, 0, -1, 1};
-inline constexpr Dimension kAngularAcceleration{0, 0, -2, 1};
-inline constexpr Dimension kVelocity{1, 0, -1, 0};
-inline constexpr Dimension kAcceleration{1, 0, -2, 0};
-inline constexpr Dimension kDensity{-3, 1, 0, 0};
-inline constexpr Dimension kForce{1, 1, -2, 0};
-inline constexpr Dimension kEnergy{2, 1, -2, 0};
-inline constexpr Dimension kPressure{-1, 1, -2, 0};
-inline constexpr Dimension kViscosity{-1, 1, -1, 0};
-inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
-inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
-inline constexpr Dimension kPerKelvin{0, 0, 0, 0, -1};
-inline constexpr Dimension kPerPascal{1, -1, 2, 0, 0};
-inline constexpr Dimension kToughness{-0.5, 1, -2, 0};   ///< toughness of fracture, K
-inline constexpr Dimension kSurfaceEnergy{0, 1, -2, 0};  ///< energy over area, J and G
-
-/// A dimension in words: "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
-std::string describe(const Dimension& dimension);
-/// An example of a quantity of this dimension: "5 kPa".
-std::string example(const Dimension& dimension);
 
 /// A unit: factor to SI and dimension.
 struct Unit {

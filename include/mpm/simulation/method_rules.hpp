@@ -5,16 +5,15 @@
 #include <optional>
 #include <string>
 
+#include "mpm/keys/key_table.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 
-/// Reason why a method is impossible, and what can be used instead.
-struct MethodFault {
-  std::string key;   ///< key of the scene's section `method` that has to change: "transfer", "damping.placement"
-  std::string text;  ///< the fault, and what to write instead
-};
+/// Reason why a method is impossible, and what can be used instead. Its key is one of the scene's section `method` that
+/// has to change: "transfer", "damping.placement".
+using MethodFault = KeyFault;
 
 /// The first rule that a method breaks; empty when it breaks none.
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry);

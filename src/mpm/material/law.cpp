@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/material/add_user_law.hpp"
+
 namespace mpm {
 namespace {
 
@@ -28,6 +30,7 @@ void add_names(bool (*fits)(const LawTraits&), std::vector<std::string>& names, 
 
 bool listed_law(const std::string& name) { return has_name(name, std::make_index_sequence<kListed>()); }
 
+LawTraits traits_of(const UserLaw& law) { return law.kind().traits; }
 LawTraits traits_of(const LawDefinition& law) {
   if (const auto* own = std::get_if<UserLawDefinition>(&law)) return own->kind->traits;
   return std::visit([](const auto& own) { return kTraitsOf<typename std::decay_t<decltype(own)>::Law>; }, law);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm/scene/section_tables.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 
@@ -117,8 +118,8 @@ void read_bodies(const Map& root, Scene& scene) {
   std::vector<std::string> materials;
   for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
   for (const Value& value : list.elements()) {
-    const Map map(value, {"name", "material", "shape", "jitter", "seed", "initial", "cut_out"});
     BodyDefinition body;
+    const Map map = read_keys(value, body_keys(), body);
     body.name = map.at("name").name();
     for (const BodyDefinition& other : scene.bodies) {
       if (other.name == body.name) value.fail(fmt::format("a second body '{}'; give each its own name", body.name));
@@ -134,15 +135,9 @@ void read_bodies(const Map& root, Scene& scene) {
     const Value shape = map.at("shape");
     body.region = read_shape(shape, scene.definition);
     body.where = shape.where();
-    if (const auto jitter = map.find("jitter")) {
-      body.jitter = jitter->non_negative(kPlain);
-      if (body.jitter > 1.0) jitter->fail(fmt::format("{} cells; write at most 1", body.jitter));
-    }
     if (const auto seed = map.find("seed")) {
       if (!(body.jitter > 0.0)) seed->fail("is that of jitter, which the body does not have; leave it out");
-      const int number = seed->integer();
-      if (number < 1) seed->fail(fmt::format("{} is not a whole number from 1 on", number));
-      body.seed = static_cast<std::uint64_t>(number);
+      body.seed = static_cast<std::uint64_t>(seed->integer(at_least(1.0)));
     }
     if (const auto cut_out = map.find("cut_out")) read_cut_out(*cut_out, body);
     if (const auto initial = map.find("initial")) {

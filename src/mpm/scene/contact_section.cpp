@@ -5,18 +5,16 @@
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/section_keys.hpp"
 
 namespace mpm {
 namespace {
 
 using Kind = ContactLaw::Kind;
 
-constexpr Dimension kStiffness{-2, 1, -2, 0};  // traction per displacement
 const std::vector<std::string> kLawNames = {"coulomb", "stick", "interface", "one_field"};
 const std::vector<std::string> kFrictional = {"friction", "static_friction", "adhesion"};
 const std::vector<std::string> kStiffnesses = {"normal", "opened", "closed", "tangential"};
-const std::vector<std::string> kLawKeys = {"law",    "friction", "static_friction", "adhesion",
-                                           "normal", "opened",   "closed",          "tangential"};
 
 /// Refuses keys of constants that the law does not have.
 void refuse(const Map& map, Kind kind, const std::vector<std::string>& keys, const std::string& advice) {
@@ -28,11 +26,7 @@ void refuse(const Map& map, Kind kind, const std::vector<std::string>& keys, con
 }
 
 Function read_function(const Value& value, const Dimension& dimension) {
-  Function function = value.function(dimension);
-  if (function.is_constant() && function(0.0) < 0.0) {
-    value.fail(fmt::format("{:g} is less than 0; write 0 or more", function(0.0)));
-  }
-  return function;
+  return value.function(dimension, FunctionPlaces::present, kNotNegative);
 }
 
 /// Reads an interface stiffness; `perfect`, or a negative number as in the manual, means no displacement in this
@@ -69,8 +63,6 @@ InterfaceLaw read_interface(const Map& map) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& contact_law_keys() { return kLawKeys; }
 
 ContactLaw read_contact_law(const Map& map, bool needs_friction) {
   ContactLaw law;
@@ -118,35 +110,14 @@ ContactLaw read_contact_law(const Map& map, bool needs_friction) {
 
 namespace {
 
-NormalMethod read_normals(const Value& value) {
-  const std::string text = value.text();
-  if (text.size() == 1 && text[0] >= '0' && text[0] <= '3') return static_cast<NormalMethod>(text[0] - '0');
-  return static_cast<NormalMethod>(value.choice({kNormalNames.begin(), kNormalNames.end()}));
-}
-
-void read_rules(const Map& map, ContactDefinition& contact) {
-  if (const auto method = map.find("method")) {
-    contact.method = static_cast<ContactMethod>(method->choice({"points", "nodes"}));
+/// Refuses rules that others leave without effect.
+void check_rules(const Map& map, const ContactDefinition& contact) {
+  const auto edges = map.find("edges"), position = map.find("position");
+  if (edges && contact.method == ContactMethod::nodes) {
+    edges->fail("it is for contact at points; leave it out, or write method: points");
   }
-  if (const auto edges = map.find("edges")) {
-    contact.sharp_edges = edges->choice({"blunt", "sharp"}) == 1;
-    if (contact.method == ContactMethod::nodes) {
-      edges->fail("it is for contact at points; leave it out, or write method: points");
-    }
-  }
-  if (const auto normals = map.find("normals")) contact.normals.method = read_normals(*normals);
-  if (const auto bias = map.find("rigid_bias")) contact.normals.rigid_bias = bias->non_negative(kPlain);
-  if (const auto volume = map.find("minimum_volume")) {
-    contact.detection.minimum_volume = volume->non_negative(kPlain);
-  }
-  if (const auto kind = map.find("detection")) {
-    contact.detection.kind = static_cast<Detection>(kind->choice({kDetectionNames.begin(), kDetectionNames.end()}));
-  }
-  if (const auto position = map.find("position")) {
-    if (contact.detection.kind != Detection::positions) {
-      position->fail("a distance that surfaces touch at is for detection: positions; leave it out");
-    }
-    contact.detection.position = position->non_negative(kPlain);
+  if (position && contact.detection.kind != Detection::positions) {
+    position->fail("a distance that surfaces touch at is for detection: positions; leave it out");
   }
 }
 
@@ -191,7 +162,7 @@ struct Laws {
 
 Laws read_pairs(const Value& list, const Scene& scene) {
   Laws laws;
-  std::vector<std::string> keys = kLawKeys;
+  std::vector<std::string> keys = contact_law_keys().names();
   keys.emplace_back("between");
   for (const Value& value : list.elements()) {
     const Map map(value, keys);
@@ -241,11 +212,8 @@ void give_fields(const Laws& laws, const std::optional<ContactLaw>& all, Scene& 
 }
 
 Map contact_map(const Value& section) {
-  std::vector<std::string> keys = kLawKeys;
-  for (const char* key :
-       {"method", "edges", "normals", "rigid_bias", "minimum_volume", "detection", "position", "pairs"}) {
-    keys.emplace_back(key);
-  }
+  std::vector<std::string> keys = contact_law_keys().names();
+  for (const std::string& key : contact_keys().names()) keys.push_back(key);
   return Map(section, keys, {{"interface", "write law: interface, with opened, closed and tangential"}});
 }
 
@@ -299,7 +267,8 @@ FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
   if (!section) return {};
   const Map map = contact_map(*section);
   const ContactLaw law = read_contact_law(map, false);
-  read_rules(map, scene.definition.contact);
+  read_keys(map, contact_keys(), scene.definition.contact);
+  check_rules(map, scene.definition.contact);
   if (!with_tools) return {};
   const auto refuse_function = [&](const char* key, const Function& function) {
     if (!function.is_constant()) map.at(key).fail("of all tools it is a number; write functions of time in pairs");

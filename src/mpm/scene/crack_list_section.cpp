@@ -7,11 +7,13 @@
 
 #include "height_file.hpp"
 #include "mpm/crack/chain_shape.hpp"
+#include "mpm/crack/crack_keys.hpp"
 #include "mpm/math/constants.hpp"
 #include "mpm/math/input_file.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/rigid/surface.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/section_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -161,21 +163,17 @@ CrackFaces read_faces(const Value& value) {
     faces.ignored = true;
     return faces;
   }
-  std::vector<std::string> keys = contact_law_keys();
-  keys.insert(keys.end(), {"detection", "position"});
+  std::vector<std::string> keys = contact_law_keys().names();
+  for (const std::string& key : face_keys().names()) keys.push_back(key);
   const Map map(value, keys);
   faces.law = read_contact_law(map, false);
-  if (const auto detection = map.find("detection")) {
-    faces.detection = static_cast<CrackFaces::Detection>(detection->choice({"displacements", "positions"}));
-    if (faces.law.kind == ContactLaw::Kind::interface && faces.detection == CrackFaces::Detection::positions) {
-      detection->fail("an interface follows displacements; leave it out");
-    }
+  read_keys(map, face_keys(), faces);
+  if (faces.law.kind == ContactLaw::Kind::interface && faces.detection == CrackFaces::Detection::positions) {
+    map.at("detection").fail("an interface follows displacements; leave it out");
   }
-  if (const auto position = map.find("position")) {
-    if (faces.detection != CrackFaces::Detection::positions) {
-      position->fail("a distance that faces touch at is for detection: positions; leave it out");
-    }
-    faces.position = position->non_negative(kPlain);
+  const auto position = map.find("position");
+  if (position && faces.detection != CrackFaces::Detection::positions) {
+    position->fail("a distance that faces touch at is for detection: positions; leave it out");
   }
   return faces;
 }
@@ -212,13 +210,9 @@ void check_tractions(const Map& map, const CrackDefinition& crack) {
 }  // namespace
 
 CrackDefinition read_crack(const Value& value, const Scene& scene) {
-  std::vector<std::string> keys = {"name",    "body",        "segment", "start",    "end",
-                                   "fixed",   "thickness",   "faces",   "traction", "traction_of_growth",
-                                   "longest", "longest_open"};
-  keys.insert(keys.end(), kShapes.begin(), kShapes.end());
-  const Map map(value, keys);
-  const CracksDefinition& cracks = scene.definition.cracks;
   CrackDefinition crack;
+  const Map map = read_keys(value, crack_keys(), crack);
+  const CracksDefinition& cracks = scene.definition.cracks;
   crack.name = map.at("name").name();
   crack.where = value.where();
   if (const auto body = map.find("body")) {
@@ -231,20 +225,15 @@ CrackDefinition read_crack(const Value& value, const Scene& scene) {
   crack.points = read_chain(map, scene);
   read_end(map, "start", scene, crack.ends[0], crack.tip_materials[0]);
   read_end(map, "end", scene, crack.ends[1], crack.tip_materials[1]);
-  if (const auto fixed = map.find("fixed")) crack.fixed = read_truth(*fixed);
-  if (const auto thickness = map.find("thickness")) {
-    if (axisymmetric(scene.definition.geometry)) {
-      thickness->fail("about an axis a crack goes all the way round; leave it out");
-    }
-    crack.thickness = thickness->positive(kLength);
+  const auto thickness = map.find("thickness");
+  if (thickness && axisymmetric(scene.definition.geometry)) {
+    thickness->fail("about an axis a crack goes all the way round; leave it out");
   }
   if (const auto faces = map.find("faces")) crack.faces = read_faces(*faces);
   if (const auto traction = map.find("traction")) crack.traction = read_traction_name(*traction, cracks.laws);
   if (const auto traction = map.find("traction_of_growth")) {
     crack.traction_of_growth = read_traction_name(*traction, cracks.laws);
   }
-  if (const auto longest = map.find("longest")) crack.longest = longest->positive(kLength);
-  if (const auto longest = map.find("longest_open")) crack.longest_open = longest->positive(kLength);
   check_tractions(map, crack);
   return crack;
 }

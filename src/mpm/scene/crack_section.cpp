@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mpm/crack/chain_shape.hpp"
+#include "mpm/crack/crack_keys.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/feature_rules.hpp"
 
@@ -11,27 +12,13 @@ namespace mpm {
 namespace {
 
 void read_contour(const Value& value, GeometryKind geometry, ContourDefinition& contour) {
-  const Map map(value, {"size", "terms", "form", "energy"});
-  if (const auto size = map.find("size")) {
-    contour.size = size->integer();
-    if (contour.size < 2) {
-      size->fail(fmt::format("{} is too near the tip, where fields are wrong by a fifth; write 2 cells or more",
-                             contour.size));
-    }
-  }
-  if (const auto terms = map.find("terms")) {
-    contour.terms = terms->integer();
-    if (contour.terms != 1 && contour.terms != 2) terms->fail(fmt::format("{}; write 1 or 2", contour.terms));
-    if (contour.terms == 1 && axisymmetric(geometry)) {
-      terms->fail("about an axis J needs its term of the area; write 2");
-    }
+  const Map map = read_keys(value, contour_keys(), contour);
+  if (contour.terms == 1 && axisymmetric(geometry)) {
+    map.at("terms").fail("about an axis J needs its term of the area; write 2");
   }
   if (const auto form = map.find("form")) {
     if (!axisymmetric(geometry)) form->fail("the two forms differ about an axis alone; leave it out");
     contour.about_axis_by_broberg = form->choice({"broberg", "bergkvist_huong"}) == 0;
-  }
-  if (const auto energy = map.find("energy")) {
-    contour.energy = static_cast<ContourDefinition::Energy>(energy->choice({"particles", "grid"}));
   }
 }
 
@@ -39,8 +26,6 @@ void read_growth(const Map& map, const TransportDefinition& transport, CracksDef
   if (const auto growth = map.find("growth")) cracks.growth = read_growth_rule(*growth, cracks.laws, false);
   if (const auto alternate = map.find("alternate")) cracks.alternate = read_growth_rule(*alternate, cracks.laws, true);
   const auto length = map.find("length"), time_factor = map.find("time_factor");
-  if (length) cracks.length = length->positive(kPlain);
-  if (time_factor) cracks.time_factor = time_factor->positive(kPlain);
   if (cracks.length < cracks.time_factor) {
     (length ? *length : *time_factor)
         .fail(fmt::format(
@@ -48,28 +33,19 @@ void read_growth(const Map& map, const TransportDefinition& transport, CracksDef
             "waves; write a length of at least time_factor",
             cracks.length, cracks.time_factor));
   }
-  if (const auto heating = map.find("heating")) {
-    cracks.heating = heating->non_negative(kPlain);
-    if (cracks.heating > 1.0) heating->fail("a part of the energy released, 1 at most");
-    if (cracks.heating > 0.0 && transport.find(Transported::temperature) == nullptr) {
-      heating->fail("heat needs a temperature; write transport: {temperature: {}}");
-    }
+  if (cracks.heating > 0.0 && transport.find(Transported::temperature) == nullptr) {
+    map.at("heating").fail("heat needs a temperature; write transport: {temperature: {}}");
   }
 }
 
 void read_settings(const Map& map, GeometryKind geometry, CracksDefinition& cracks, Scene& scene) {
   if (const auto contour = map.find("contour")) read_contour(*contour, geometry, cracks.contour);
-  if (const auto move = map.find("move")) {
-    cracks.move = static_cast<CracksDefinition::Move>(move->choice({"average", "centre_of_mass"}));
-  }
-  if (const auto prevent = map.find("prevent")) cracks.prevent = read_truth(*prevent);
-  if (axisymmetric(geometry)) cracks.split = CracksDefinition::Split::openings;
   if (const auto split = map.find("split")) {
-    cracks.split = static_cast<CracksDefinition::Split>(split->choice({"interaction", "openings"}));
     if (axisymmetric(geometry) && cracks.split == CracksDefinition::Split::interaction) {
       split->fail("the interaction integral is of planar scenes; write openings");
     }
   } else if (axisymmetric(geometry)) {
+    cracks.split = CracksDefinition::Split::openings;
     scene.choices.emplace_back("cracks.split", "openings: about an axis K follows from the faces behind the tip");
   }
   if (const auto ignored = map.find("ignored_by")) {
@@ -98,8 +74,6 @@ Vec2 read_plane_vector(const Value& value, const Dimension& dimension) {
   return {vector.x(), vector.z()};
 }
 
-bool read_truth(const Value& value) { return value.choice({"false", "true"}) == 1; }
-
 bool cracks_may_grow(const Map& root) {
   const auto section = root.find("cracks");
   if (!section || !section->is_map()) return false;
@@ -123,9 +97,8 @@ void read_cracks(const Map& root, Scene& scene) {
   if (!section) return;
   SimulationDefinition& definition = scene.definition;
   if (const auto fault = feature_fault(definition, 1, Feature::cracks)) fail_at(root, *fault);
-  const Map map(*section, {"list", "traction_laws", "contour", "move", "prevent", "split", "growth", "alternate",
-                           "length", "time_factor", "heating", "ignored_by"});
   CracksDefinition& cracks = definition.cracks;
+  const Map map = read_keys(*section, cracks_keys(), cracks);
   if (const auto laws = map.find("traction_laws")) read_laws(*laws, cracks);
   read_settings(map, definition.geometry, cracks, scene);
   read_growth(map, scene.definition.transport, cracks);

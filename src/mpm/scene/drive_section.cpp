@@ -2,6 +2,7 @@
 // does not use them: the node turns the frame into pose commands, and keeps commands within the limits.
 #include <fmt/format.h>
 
+#include "mpm/rigid/rigid_keys.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -35,17 +36,7 @@ void read_drive(const Value& drive, const Map& body, const std::string& name, Sc
 }
 
 void read_limits(const Value& value, MotionLimits& limits) {
-  const Map map(value, {"speed", "rotation_rate", "acceleration", "rotation_acceleration"},
-                {{"velocity", "write speed, of the body's origin in any direction"},
-                 {"jerk", "limit the acceleration"},
-                 {"force", "a rigid body moves as commanded, whatever the force"}});
-  const auto read = [&](const char* key, const Dimension& dimension, double& limit) {
-    if (const auto given = map.find(key)) limit = given->positive(dimension);
-  };
-  read("speed", kVelocity, limits.speed);
-  read("rotation_rate", kAngularRate, limits.rotation_rate);
-  read("acceleration", kAcceleration, limits.acceleration);
-  read("rotation_acceleration", kAngularAcceleration, limits.rotation_acceleration);
+  const Map map = read_keys(value, limit_keys(), limits);
   if (!limits.any()) map.fail("limits nothing; write one of speed, rotation_rate, acceleration, rotation_acceleration");
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/rigid/rigid_keys.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -11,8 +12,6 @@ namespace {
 
 constexpr double kCentred =
     1e-6;  ///< part of its size: a centre of mass nearer to the origin than this counts as the origin
-constexpr Dimension kInertia{2, 1, 0, 0};
-constexpr Dimension kTorque{2, 1, -2, 0};
 
 bool has(GeometryKind geometry, int velocity) {
   if (velocity >= 3) return turns_about(geometry, velocity - 3);
@@ -66,11 +65,8 @@ void read_mass(const Map& map, const SimulationDefinition& definition, RigidBody
                FreeDefinition& free) {
   const GeometryKind geometry = definition.geometry;
   const auto mass = map.find("mass"), density = map.find("density"), inertia = map.find("inertia");
-  if (mass.has_value() == density.has_value()) map.fail("write the mass of the body, or its density, and not both");
   const auto centre = map.find("centre");
-  if (centre) free.centre = centre->vector(kLength);
   if (inertia) free.inertia = read_inertia(*inertia, geometry);
-  if (mass) free.mass = mass->positive(kMass);
   const bool turns = free.axes[3] || free.axes[4] || free.axes[5];
   // The inertia of the shape is about its own centre of mass.
   if (turns && centre && !inertia)
@@ -96,15 +92,12 @@ void read_free(const Map& body_map, const SimulationDefinition& definition, Rigi
   if (!key) return;
   const GeometryKind geometry = definition.geometry;
   if (body.inner_radius > 0.0) key->fail("a ring that opens is not rigid; write another shape, or leave `free` out");
-  const Map map(*key, {"mass", "density", "inertia", "centre", "axes", "velocity", "rotation_rate", "force", "torque"},
-                {{"center", "write centre"}, {"gravity", "gravity is the scene's"}});
   FreeDefinition free;
+  const Map map = read_keys(*key, free_keys(), free);
   for (int k = 0; k < 6; ++k) free.axes[k] = has(geometry, k);
   if (const auto axes = map.find("axes")) free.axes = read_axes(*axes, geometry);
   read_mass(map, definition, body, free);
-  if (const auto value = map.find("velocity")) free.velocity.linear = value->vector(kVelocity);
   if (const auto value = map.find("rotation_rate")) free.velocity.angular = read_about(*value, kAngularRate, geometry);
-  if (const auto value = map.find("force")) free.wrench.force = value->vector(kForce);
   if (const auto value = map.find("torque")) free.wrench.torque = read_about(*value, kTorque, geometry);
   for (int k = 0; k < 6; ++k) {
     const Function& prescribed = k < 3 ? body.velocity[k] : body.rotation_rate[k - 3];

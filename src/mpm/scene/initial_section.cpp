@@ -7,6 +7,7 @@
 #include "mpm/material/initial_state.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/simulation/section_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -62,12 +63,7 @@ void read_stress(const Value& value, GeometryKind geometry, BodyDefinition& body
 void read_geostatic(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body) {
   if (const std::string reason = refused_geostatic(scene.definition.geometry); !reason.empty()) value.fail(reason);
   GeostaticDefinition geostatic;
-  if (!value.is_text()) {
-    const Map map(value, {"k0", "residual"},
-                  {{"surface", "the weight above each particle is summed over the particles"}});
-    if (const auto k0 = map.find("k0")) geostatic.k0 = k0->non_negative(kPlain);
-    if (const auto residual = map.find("residual")) geostatic.residual = residual->positive(kPlain);
-  }
+  if (!value.is_text()) read_keys(value, geostatic_keys(), geostatic);
   const Vec3& gravity = scene.definition.gravity;
   if (!(gravity.norm() > 0.0)) value.fail("needs gravity; write it, such as gravity: [0, 0, -9.81]");
   if (gravity.cwiseAbs().maxCoeff() < (1.0 - 1e-12) * gravity.norm()) {

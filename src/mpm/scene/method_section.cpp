@@ -8,9 +8,11 @@
 #include "mpm/material/law.hpp"
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/implicit_choice.hpp"
+#include "mpm/scene/section_tables.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
+#include "mpm/simulation/section_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -60,36 +62,13 @@ void check_extent(const Value& max, const Scene& scene) {
   }
 }
 
-/// The words in a scene for an enumeration: its names, and other words for some of them.
-template <std::size_t N>
-std::size_t read_name(const Value& value, const std::array<const char*, N>& names,
-                      const std::vector<std::pair<std::string, std::size_t>>& aliases = {}) {
-  std::vector<std::string> words(names.begin(), names.end());
-  for (const auto& [alias, index] : aliases) words.push_back(alias);
-  const std::size_t found = value.choice(words);
-  return found < N ? found : aliases[found - N].second;
-}
-
-/// The shape function by its name, or by its other name.
-ShapeKind read_shape(const Value& value) {
-  std::vector<std::string> words;
-  std::vector<ShapeKind> kinds;
-  for (const auto name : {&ShapeTraits::name, &ShapeTraits::other_name}) {
-    for (const ShapeTraits& shape : kShapeTraits) {
-      if (shape.*name == nullptr) continue;
-      words.emplace_back(shape.*name);
-      kinds.push_back(shape.kind);
-    }
-  }
-  return kinds[value.choice(words)];
-}
-
 Transfer read_transfer(const Value& value) {
   Transfer transfer;
   if (value.is_text()) {
-    constexpr std::size_t kPic = kTransferNames.size();
-    const std::size_t found = read_name(value, kTransferNames, {{"pic", kPic}});
-    if (found == kPic) {
+    std::vector<std::string> words = words_of(kTransferNames);
+    words.emplace_back("pic");
+    const std::size_t found = value.choice(words);
+    if (words[found] == "pic") {
       transfer.flip = 0.0;
       return transfer;
     }
@@ -151,25 +130,15 @@ void read_particles(const Map& method, Scene& scene) {
 
 void read_axis(const Value& value, Scene& scene) {
   if (!axisymmetric(scene.definition.geometry)) value.fail("only an axisymmetric scene has an axis; leave it out");
-  const Map map(value, {"domains", "functions", "ghosts", "motion"});
-  AxisRules& axis = scene.definition.method.axis;
-  if (const auto key = map.find("domains")) axis.domains = static_cast<AxisDomains>(read_name(*key, kAxisDomainNames));
-  if (const auto key = map.find("functions")) {
-    axis.functions = static_cast<AxisFunctions>(read_name(*key, kAxisFunctionNames));
-  }
-  if (const auto key = map.find("ghosts")) axis.ghosts = static_cast<AxisGhosts>(read_name(*key, kAxisGhostNames));
-  if (const auto key = map.find("motion")) axis.motion = static_cast<AxisMotion>(read_name(*key, kAxisMotionNames));
+  read_keys(value, axis_keys(), scene.definition.method.axis);
 }
 
 AutoMethod read_auto(const Value& value, const Scene& scene) {
-  const Map map(value, {"strain", "turn", "error", "cost"});
   AutoMethod asked;
   asked.names_more = value.node().size() > 0;
-  if (const auto strain = map.find("strain")) asked.strain = strain->non_negative(kPlain);
-  if (const auto turn = map.find("turn")) {
-    if (scene.definition.geometry == GeometryKind::line) turn->fail("nothing turns in a line; leave it out");
-    asked.turn = turn->non_negative(kAngle);
-  }
+  const Map map = read_keys(value, auto_keys(), asked);
+  const auto turn = map.find("turn");
+  if (turn && scene.definition.geometry == GeometryKind::line) turn->fail("nothing turns in a line; leave it out");
   const auto error = map.find("error");
   const auto cost = map.find("cost");
   if (error && cost) cost->fail("a budget is an error or a cost, not both; leave one out");
@@ -255,17 +224,11 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     all.keep_transfer = calm(root, false, scene);
     return all;
   }
-  const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
-                           "gradient_terms", "particles_per_cell", "precision", "axis", "sweeps"});
+  const Map map = read_keys(*section, method_keys(), method);
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
-  const auto shape = map.find("shape");
-  if (shape) method.shape = read_shape(*shape);
-  const auto update = map.find("update");
-  if (update) {
-    method.update = static_cast<UpdateScheme>(
-        read_name(*update, kUpdateNames, {{"musl", static_cast<std::size_t>(UpdateScheme::usl)}}));
-  } else if (!chosen_later) {
+  const auto shape = map.find("shape"), update = map.find("update");
+  if (!update && !chosen_later) {
     scene.choices.emplace_back("method.update", "usavg: strain updated in both halves of a step, least dissipation");
   }
   const auto transfer = map.find("transfer");
@@ -289,18 +252,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     chosen_later->keep_transfer = kept;
     chosen_later->names_transfer = transfer.has_value() || part_of_pic;
   }
-  if (const auto average = map.find("average_dilatation")) {
-    method.average_dilatation = average->choice({"false", "true"}) == 1;
-  }
-  if (const auto average = map.find("average_stress")) {
-    method.average_stress = average->choice({"false", "true"}) == 1;
-  }
-  if (const auto sweeps = map.find("sweeps")) method.sweeps = sweeps->integer();
   if (damping) read_damping(*damping, scene);
-  if (const auto terms = map.find("gradient_terms")) method.gradient_terms = terms->integer();
-  if (const auto precision = map.find("precision")) {
-    method.precision = precision->choice({"double", "single"}) == 0 ? Precision::float64 : Precision::float32;
-  }
   if (const auto axis = map.find("axis")) read_axis(*axis, scene);
   read_particles(map, scene);
   // Parts that are still to be chosen have their defaults here, which are compatible with every valid combination.

@@ -7,15 +7,16 @@
 #include <numeric>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm/scene/section_tables.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/section_keys.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kShortestEnd = 100.0 * kNanosecond;  // a hundred sync points of the shortest period
-constexpr double kLongest = 1e9;                      // [s], 32 years; 64 bits of nanoseconds last 292 years
-constexpr std::int64_t kMostSync = 10'000'000;        // [ns], the longest that a command waits by default
+constexpr double kLongest = 1e9;                // [s], 32 years; 64 bits of nanoseconds last 292 years
+constexpr std::int64_t kMostSync = 10'000'000;  // [ns], the longest that a command waits by default
 
 /// Reads a time of whole nanoseconds.
 std::int64_t read_nanoseconds(const Value& value) {
@@ -58,23 +59,8 @@ void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
     scene.choices.emplace_back("time.end", "none: runs until it is stopped");
     return;
   }
-  const Map map(*section, {"end", "cfl", "step", "sync", "budget"}, {{"start", "a run starts at 0"}});
-  if (const auto end = map.find("end")) {
-    time.end = end->positive(kTime);
-    if (time.end < kShortestEnd || time.end > kLongest) {
-      end->fail(fmt::format("{:g} s is not between {:g} s and {:g} s; write a time between", time.end, kShortestEnd,
-                            kLongest));
-    }
-  } else {
-    scene.choices.emplace_back("time.end", "none: runs until it is stopped");
-  }
-  if (const auto cfl = map.find("cfl")) {
-    time.cfl = cfl->positive(kPlain);
-    if (time.cfl >= 1.0)
-      cfl->fail(fmt::format("{} is not below 1, where steps become unstable; 0.5 is the default", time.cfl));
-  }
-  if (const auto step = map.find("step")) time.step = step->positive(kTime);
-  if (const auto budget = map.find("budget")) time.budget = budget->positive(kTime);
+  const Map map = read_keys(*section, time_keys(), time);
+  if (!map.find("end")) scene.choices.emplace_back("time.end", "none: runs until it is stopped");
   sync = map.find("sync");
 }
 
@@ -212,20 +198,12 @@ void read_time_and_output(const Map& root, Scene& scene) {
   read_time(root, scene, sync);
   std::optional<Map> global;
   if (const auto section = root.find("output")) {
-    const Map map(
-        *section,
-        {"period", "first", "particle_fields", "particle_stride", "particle_region", "global", "global_period"},
-        {{"folder", "name it on the command line: --out DIR, --csv DIR, --bag FILE"},
-         {"crack_fields", "bodies are whole"}});
+    const Map map = read_keys(*section, output_keys(), output);
     period = map.find("period");
     first = map.find("first");
     if (const auto fields = map.find("particle_fields")) {
       output.particle_fields.clear();
       for (const Value& field : fields->elements()) output.particle_fields.push_back(read_particle_field(field));
-    }
-    if (const auto stride = map.find("particle_stride")) {
-      output.particle_stride = stride->integer();
-      if (output.particle_stride < 1) stride->fail("write 1 for every particle, 2 for every second, and so on");
     }
     if (const auto region = map.find("particle_region")) output.particle_region = read_particle_region(*region);
     read_global(map, scene);

@@ -78,7 +78,7 @@ std::string Value::text() const {
   return node_.Scalar();
 }
 
-double Value::number(const Dimension& dimension) const {
+double Value::quantity(const Dimension& dimension) const {
   if (!is_text()) {
     fail(fmt::format("found {}; write {}, such as {}", kind_of(node_), describe(dimension), example(dimension)));
   }
@@ -117,31 +117,35 @@ std::optional<double> Value::of_constants(const Dimension& dimension) const {
   }
 }
 
-double Value::positive(const Dimension& dimension) const {
-  const double value = number(dimension);
-  if (!(value > 0.0)) {
-    fail(fmt::format("'{}' is not greater than 0; write {}, such as {}", text(), describe(dimension),
+void Value::check(double value, const Dimension& dimension, const Range& range) const {
+  const std::string fault = range.fault(value, dimension);
+  if (fault.empty()) return;
+  const std::string noun = describe(dimension);
+  const bool from_zero = range.least == 0.0 && range.most == kInfinity;
+  if (from_zero) {
+    fail(fmt::format("'{}' {}; write {}{}, such as {}", text(), fault, range.with_least ? "0 or " : "", noun,
                      example(dimension)));
   }
+  fail(fmt::format("'{}' {}; write {} {}", text(), fault, dimension == kPlain ? "a number" : noun,
+                   range.words(dimension)));
+}
+
+double Value::number(const Dimension& dimension, const Range& range) const {
+  if (range.or_none && is_text() && text() == "none") return kInfinity;
+  const double value = quantity(dimension);
+  check(value, dimension, range);
   return value;
 }
 
-double Value::non_negative(const Dimension& dimension) const {
-  const double value = number(dimension);
-  if (!(value >= 0.0)) {
-    fail(
-        fmt::format("'{}' is less than 0; write 0 or {}, such as {}", text(), describe(dimension), example(dimension)));
-  }
-  return value;
-}
-
-int Value::integer() const {
+int Value::integer(const Range& range) const {
   const std::string word = text();
   int value = 0;
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || stop != word.data() + word.size()) {
     fail(fmt::format("'{}' is not a whole number; write one, such as 2", word));
   }
+  if (const std::string fault = range.fault(value, kPlain); !fault.empty())
+    fail(fmt::format("{} {}; write a whole number {}", value, fault, range.words(kPlain)));
   return value;
 }
 
@@ -167,7 +171,7 @@ std::size_t Value::choice(const std::vector<std::string>& words, const std::vect
       nearest(word, words).empty() ? fmt::format("write one of {}", fmt::join(words, ", ")) : suggest(word, words)));
 }
 
-Function Value::function(const Dimension& dimension, FunctionPlaces places) const {
+Function Value::function(const Dimension& dimension, FunctionPlaces places, const Range& range) const {
   const std::string word = text();
   double number = 0.0;
   std::string rest;
@@ -176,15 +180,16 @@ Function Value::function(const Dimension& dimension, FunctionPlaces places) cons
   const bool has_unit =
       starts_with_number && !rest.empty() &&
       (std::isalnum(static_cast<unsigned char>(rest[0])) || rest == "%" || static_cast<unsigned char>(rest[0]) >= 0x80);
-  if (starts_with_number && (rest.empty() || has_unit)) return {this->number(dimension)};
+  if (starts_with_number && (rest.empty() || has_unit)) return {this->number(dimension, range)};
   const UnitSystem& units = context_->units;
   const SceneConstants& constants = context_->constants;
-  if (constants.has(word)) return {this->number(dimension)};
+  if (constants.has(word)) return {this->number(dimension, range)};
   try {
     Function function =
         Function::parse(word, {units.factor(dimension), units.time, units.length}, places, constants.numbers());
-    if (constants.used_by(word) && !function.uses_time() && !function.uses_place()) return {function(0.0)};
-    return function;
+    if (!constants.used_by(word) || function.uses_time() || function.uses_place()) return function;
+    check(function(0.0), dimension, range);
+    return {function(0.0)};
   } catch (const FunctionError& error) {
     fail(fmt::format("{}; write {}, such as {}, or an expression", error.what(), describe(dimension),
                      example(dimension)));
@@ -279,6 +284,48 @@ std::optional<Value> Map::find(const std::string& key) const {
 Value Map::at(const std::string& key) const {
   if (auto found = find(key)) return *found;
   value_.fail(fmt::format("the key '{}' is missing; add it", key));
+}
+
+namespace {
+
+/// Reads a value into its place.
+struct Reading {
+  const Value& value;
+  const KeyInfo& key;
+  void operator()(std::monostate) const {}
+  void operator()(double* place) const { *place = value.number(key.dimension, key.range); }
+  void operator()(std::optional<double>* place) const { *place = value.number(key.dimension, key.range); }
+  void operator()(int* place) const { *place = value.integer(key.range); }
+  void operator()(std::optional<int>* place) const { *place = value.integer(key.range); }
+  void operator()(bool* place) const { *place = value.truth(); }
+  void operator()(std::optional<bool>* place) const { *place = value.truth(); }
+  void operator()(std::string* place) const { *place = value.text(); }
+  void operator()(Vec3* place) const { *place = value.vector(key.dimension); }
+  void operator()(Function* place) const { *place = value.function(key.dimension, FunctionPlaces::present, key.range); }
+  void operator()(std::array<Function, 3>* place) const { *place = value.functions(key.dimension); }
+  void operator()(const WordPlace& place) const {
+    std::vector<std::string> words = key.words;
+    for (const auto& [alias, index] : key.aliases) words.push_back(alias);
+    const std::size_t found = value.choice(words), own = key.words.size();
+    place.take(found < own ? found : key.aliases[found - own].second);
+  }
+};
+
+}  // namespace
+
+void read_key(const Map& map, const KeyInfo& key, const KeyPlace& place) {
+  const std::optional<Value> value = key.required() ? map.at(key.name) : map.find(key.name);
+  if (value) std::visit(Reading{*value, key}, place);
+}
+
+void check_pair(const Map& map, const KeyPair& pair) {
+  const bool both = map.find(pair.first).has_value() == map.find(pair.second).has_value();
+  if (both != pair.together) map.fail(pair.rule());
+}
+
+void Map::fail(const KeyFault& fault) const {
+  if (const auto value = find(fault.key)) value->fail(fault.text);
+  fail(fault.key + ": " + fault.text);
 }
 
 std::pair<std::string, Value> only_key(const Value& value, const std::vector<std::string>& keys,

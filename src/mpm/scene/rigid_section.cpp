@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mpm/math/constants.hpp"
+#include "mpm/scene/section_tables.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -188,9 +189,8 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
-/// Reads where contact normals come from: the exact surface, or particles that fill it.
-void read_normals(const Value& value, RigidBodyDefinition& body) {
-  body.particles = value.choice({"surface", "particles"}) == 1;
+/// Refuses particles that would not fill the body.
+void check_normals(const Value& value, const RigidBodyDefinition& body) {
   if (!body.particles) return;
   if (body.reach > 0.0) value.fail("particles reach as far as their functions do; leave out reach");
   const Box bounds = body.surface->bounds();
@@ -242,12 +242,8 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   if (!section) return;
   bool smooth = false;  // a tool for which the scene names no friction
   for (const Value& value : section->elements()) {
-    const Map map(value,
-                  {"name", "shape", "pose", "motion", "drive", "limits", "free", "friction", "reach", "sides",
-                   "divides", "normals"},
-                  {{"mass", "write free: {mass: ...}, or density, for a body that forces move"},
-                   {"frame", "use commands on topics, which tf2 transforms"}});
     RigidBodyDefinition body;
+    const Map map = read_keys(value, rigid_body_keys(), body);
     body.name = map.at("name").name();
     for (const RigidBodyDefinition& other : scene.definition.rigid_bodies) {
       if (other.name == body.name)
@@ -264,15 +260,11 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     smooth = smooth || (!own_friction && !names_friction(root));
     read_free(map, scene.definition, body);
-    if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     if (const auto divides = map.find("divides")) read_divides(*divides, scene, body);
-    if (const auto reach = map.find("reach")) {
-      if (scene.definition.contact.method == ContactMethod::points)
-        reach->fail("it is of contact at nodes; leave it out, or write contact: {method: nodes}");
-      body.reach = reach->non_negative(kPlain);
-      if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));
-    }
-    if (const auto normals = map.find("normals")) read_normals(*normals, body);
+    const auto reach = map.find("reach");
+    if (reach && scene.definition.contact.method == ContactMethod::points)
+      reach->fail("it is of contact at nodes; leave it out, or write contact: {method: nodes}");
+    if (const auto normals = map.find("normals")) check_normals(*normals, body);
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
   if (smooth) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");

@@ -6,6 +6,7 @@
 
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/tool_motion.hpp"
+#include "mpm/sleep/sleep_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -59,9 +60,8 @@ void read_sleep(const Map& root, Scene& scene) {
   SimulationDefinition& definition = scene.definition;
   SleepDefinition sleep;
   const double cell = definition.smallest_cell(), weight = definition.gravity.norm();
-  const Map map(*section, {"speed", "wake", "after", "balance", "damping", "from_start"});
+  const Map map = read_keys(*section, sleep_keys(), sleep);
   if (const auto speed = map.find("speed")) {
-    sleep.speed = speed->positive(kVelocity);
     if (weight > 0.0 && sleep.speed > std::sqrt(weight * cell)) {
       speed->fail(fmt::format("{:.3g} m/s is no rest: it is more than that of a fall of half a cell, {:.3g} m/s",
                               sleep.speed, std::sqrt(weight * cell)));
@@ -73,25 +73,16 @@ void read_sleep(const Map& root, Scene& scene) {
         "sleep.speed", fmt::format("{:.3g} m/s: a hundredth of the speed of a fall of half a cell", sleep.speed));
   }
   if (const auto wake = map.find("wake")) {
-    sleep.wake = wake->positive(kVelocity);
     if (sleep.wake < sleep.speed) wake->fail("it is below sleep.speed, so that blocks would wake as they fall asleep");
   } else {
     sleep.wake = kWake * sleep.speed;
     scene.choices.emplace_back("sleep.wake", fmt::format("{:.3g} m/s: three times sleep.speed", sleep.wake));
   }
-  if (const auto after = map.find("after")) {
-    sleep.after = after->positive(kTime);
-  } else {
+  if (!map.find("after")) {
     if (weight == 0.0) map.fail("without gravity there is no scale for how long; write sleep.after");
     sleep.after = std::sqrt(cell / weight);
     scene.choices.emplace_back("sleep.after", fmt::format("{:.3g} s: the time of a fall of half a cell", sleep.after));
   }
-  if (const auto balance = map.find("balance")) sleep.balance = balance->positive(kPlain);
-  if (const auto damping = map.find("damping")) {
-    sleep.damping = damping->non_negative(kPlain);
-    if (!(sleep.damping < 1.0)) damping->fail("it is a part of a force, so it is below 1");
-  }
-  if (const auto start = map.find("from_start")) sleep.from_start = start->choice({"false", "true"}) == 1;
   definition.sleep = sleep;
   for (const BodyDefinition& body : scene.bodies) {
     if (!sleep.from_start || weight == 0.0 || body.geostatic || body.stress) continue;

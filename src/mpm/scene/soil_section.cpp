@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "mpm/scene/sections.hpp"
 
@@ -32,7 +30,7 @@ std::string band_text(const Map& map, double band) {
   return fmt::format("a band {}{:g} m wide", map.find("shear_band") ? "" : "of one cell, ", band);
 }
 
-/// Reads how a soil loses its strength along a shear band.
+/// Completes how a soil loses its strength along a shear band.
 template <class SoilDefinition>
 void read_softening(const Map& map, Scene& scene, SoilDefinition& law) {
   const auto slip = map.find("softening_slip");
@@ -44,11 +42,8 @@ void read_softening(const Map& map, Scene& scene, SoilDefinition& law) {
   }
   if (!slip) return;
   SoilSoftening& fall = law.softening;
-  fall.slip = slip->positive(kLength);
-  fall.friction_angle = law.friction_angle;
-  fall.cohesion = law.cohesion;
-  if (const auto friction = map.find("residual_friction_angle")) fall.friction_angle = friction->number(kAngle);
-  if (const auto cohesion = map.find("residual_cohesion")) fall.cohesion = cohesion->number(kPressure);
+  if (!map.find("residual_friction_angle")) fall.friction_angle = law.friction_angle;
+  if (!map.find("residual_cohesion")) fall.cohesion = law.cohesion;
   fall.band = read_band(map, scene);
   if (fall.band == 0.0) slip->fail("without a grid the width of a shear band is not known; add shear_band");
   scene.choices.emplace_back(map.value().path() + ".softening_slip",
@@ -56,19 +51,14 @@ void read_softening(const Map& map, Scene& scene, SoilDefinition& law) {
                                          band_text(map, fall.band)));
 }
 
-/// Reads where dilation ends: at a volume, or sooner, where a shear band has risen; in soil that softens, with the
+/// Completes where dilation ends: at a volume, or sooner, where a shear band has risen; in soil that softens, with the
 /// fall.
 template <class SoilDefinition>
 void read_dilation_end(const Map& map, Scene& scene, SoilDefinition& law) {
   const auto limit = map.find("dilation_limit"), rise = map.find("dilation_rise");
-  const auto number = [](const Value& value, const Dimension& dimension) {
-    return value.text() == "none" ? std::numeric_limits<double>::infinity() : value.positive(dimension);
-  };
-  if (limit) {
-    law.dilation_limit = number(*limit, kPlain);
-  } else if (law.softening.falls()) {
-    law.dilation_limit = std::numeric_limits<double>::infinity();  // it ends with the fall
-  } else if (law.dilation_angle > 0.0) {
+  if (!limit && law.softening.falls()) {
+    law.dilation_limit = kInfinity;  // it ends with the fall
+  } else if (!limit && law.dilation_angle > 0.0) {
     scene.choices.emplace_back(
         map.value().path() + ".dilation_limit",
         fmt::format("{:g}: dilation ends when the volume has grown by that part", kDilationLimit));
@@ -76,12 +66,9 @@ void read_dilation_end(const Map& map, Scene& scene, SoilDefinition& law) {
   SoilSoftening& fall = law.softening;
   const bool ends = law.dilation_angle > 0.0 && std::isfinite(law.dilation_limit);
   const double band = rise || ends ? read_band(map, scene) : 0.0;
-  if (rise) {
-    fall.rise = number(*rise, kLength);
-    if (std::isfinite(fall.rise) && band == 0.0) {
-      rise->fail("without a grid the width of a shear band is not known; add shear_band");
-    }
-  } else if (ends && band > 0.0) {  // without a grid there are no bands
+  if (rise && std::isfinite(fall.rise) && band == 0.0) {
+    rise->fail("without a grid the width of a shear band is not known; add shear_band");
+  } else if (!rise && ends && band > 0.0) {  // without a grid there are no bands
     fall.rise = kDilationRise;
   }
   if (std::isinf(fall.rise)) {
@@ -102,35 +89,14 @@ void read_dilation_end(const Map& map, Scene& scene, SoilDefinition& law) {
                         fall.rise, law.dilation_limit));
 }
 
-/// Reads the constants that the laws of soil have in common.
-template <class SoilDefinition>
-SoilDefinition read_soil(const Map& map, Scene& scene) {
-  SoilDefinition law;
-  law.elasticity = read_elasticity(map);
-  law.friction_angle = map.at("friction_angle").number(kAngle);
-  if (const auto dilation = map.find("dilation_angle")) law.dilation_angle = dilation->number(kAngle);
-  if (const auto cohesion = map.find("cohesion")) law.cohesion = cohesion->number(kPressure);
-  read_softening(map, scene, law);
-  read_dilation_end(map, scene, law);
-  if (const auto cutoff = map.find("tension_cutoff")) law.tension_cutoff = cutoff->non_negative(kPressure);
-  return law;
-}
-
 }  // namespace
 
-LawDefinition read_drucker_prager(const Map& map, Scene& scene) {
-  auto law = read_soil<DruckerPragerDefinition>(map, scene);
-  if (const auto match = map.find("match")) {
-    static constexpr std::array kMatches = {ConeMatch::mohr_coulomb, ConeMatch::plane_strain, ConeMatch::compression,
-                                            ConeMatch::extension};
-    law.match = kMatches.at(match->choice({"mohr_coulomb", "plane_strain", "compression", "extension"}));
-  } else {
-    scene.choices.emplace_back(map.value().path() + ".match",
-                               "mohr_coulomb: friction_angle is that of every state of stress");
-  }
-  return law;
+template <class Soil>
+void complete_soil(const Map& map, Scene& scene, Soil& law) {
+  read_softening(map, scene, law);
+  read_dilation_end(map, scene, law);
 }
-
-LawDefinition read_mohr_coulomb(const Map& map, Scene& scene) { return read_soil<MohrCoulombDefinition>(map, scene); }
+void complete_law(const Map& map, Scene& scene, DruckerPragerDefinition& law) { complete_soil(map, scene, law); }
+void complete_law(const Map& map, Scene& scene, MohrCoulombDefinition& law) { complete_soil(map, scene, law); }
 
 }  // namespace mpm

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/pace/target_keys.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/scene/source.hpp"
 #include "mpm/scene/target_half.hpp"
@@ -40,12 +41,6 @@ void find_extent(const Value& section, Scene& scene) {
         "such as 0.1 m");
   }
   scene.target->extent = least;
-}
-
-double fraction(const Value& value) {
-  const double part = value.positive(kPlain);
-  if (part >= 1.0) value.fail(fmt::format("'{}' is not below 100 %; write one such as 5 %", value.text()));
-  return part;
 }
 
 std::vector<std::string> read_keep(const Value& value) {
@@ -97,9 +92,8 @@ void read_symmetric(const Value& value, Scene& scene) {
 void read_target(const Map& root, Scene& scene) {
   const auto section = root.find("target");
   if (!section) return;
-  const Map map(*section, {"real_time", "force_error", "keep", "tool", "length", "symmetric", "chosen", "before",
-                           "asked", "expected"});
   pace::Target& target = scene.target.emplace();
+  const Map map = read_keys(*section, pace::target_keys(), target);
   const auto real_time = map.find("real_time"), error = map.find("force_error");
   if (real_time && error) {
     error->fail(
@@ -107,8 +101,6 @@ void read_target(const Map& root, Scene& scene) {
         "1}\"");
   }
   if (!real_time && !error) section->fail("names no target; write real_time: 1 or force_error: 5 %");
-  if (real_time) target.real_time = real_time->positive(kPlain);
-  if (error) target.force_error = fraction(*error);
   if (scene.definition.rigid_bodies.empty()) {
     section->fail(
         "weighs the force on a tool, and there is no rigid body; leave it out and set grid.cell, method and time.cfl "
@@ -127,15 +119,7 @@ void read_target(const Map& root, Scene& scene) {
     }
   }
   if (const auto keep = map.find("keep")) target.keep = read_keep(*keep);
-  if (const auto tool = map.find("tool")) {
-    const std::vector<std::string> uses(pace::kToolUseNames.begin(), pace::kToolUseNames.end());
-    target.use = static_cast<pace::ToolUse>(tool->choice(uses));
-  }
-  if (const auto length = map.find("length")) {
-    target.length = length->positive(kLength);
-  } else {
-    find_extent(*section, scene);
-  }
+  if (!target.length) find_extent(*section, scene);
   read_chosen(map, target);
   if (const auto symmetric = map.find("symmetric")) read_symmetric(*symmetric, scene);
 }

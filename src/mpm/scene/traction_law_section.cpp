@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "mpm/crack/crack_error.hpp"
+#include "mpm/crack/crack_keys.hpp"
 #include "mpm/crack/traction_completion.hpp"
 #include "mpm/crack/traction_law.hpp"
 #include "mpm/math/nearest.hpp"
@@ -12,8 +13,6 @@
 
 namespace mpm {
 namespace {
-
-constexpr Dimension kFaceStiffness{-2, 1, -2, 0};  // traction over opening
 
 /// Keys of one direction of a curve.
 std::vector<std::string> curve_keys(TractionKind curve) {
@@ -44,7 +43,7 @@ TractionMode read_trilinear(const Map& map) {
   given.elastic_2 = read_part(map, "elastic_2", kLength);
   given.opening = read_part(map, "opening", kLength);
   given.toughness = read_part(map, "toughness", kSurfaceEnergy);
-  given.stiffness = read_part(map, "stiffness", kFaceStiffness);
+  given.stiffness = read_part(map, "stiffness", kStiffness);
   return complete_trilinear(given);
 }
 
@@ -54,7 +53,7 @@ TractionMode read_curve(const Map& map, TractionKind curve) {
   given.toughness = read_part(map, "toughness", kSurfaceEnergy);
   given.opening = read_part(map, "opening", kLength);
   if (curve == TractionKind::cubic) return complete_cubic(given);
-  given.stiffness = read_part(map, "stiffness", kFaceStiffness);
+  given.stiffness = read_part(map, "stiffness", kStiffness);
   given.elastic = read_part(map, "elastic", kLength);
   given.elastic_part = read_part(map, "elastic_part", kPlain);
   if (curve == TractionKind::exponential) return complete_exponential(given, map.at("decay").positive(kPlain));
@@ -71,18 +70,16 @@ TractionMode read_mode(const Value& value, TractionKind curve) {
     map.fail(error.what());
   }
   TractionMode mode;
-  mode.stiffness = map.at("stiffness").non_negative(kFaceStiffness);
+  mode.stiffness = map.at("stiffness").non_negative(kStiffness);
   return mode;
 }
 
 }  // namespace
 
 TractionLawDefinition read_traction_law(const Value& value) {
-  const Map map(value, {"kind", "normal", "shear", "curve", "mix", "pressure", "least_opening"});
   TractionLawDefinition law;
   law.where = value.where();
-  const std::vector<std::string> kinds(kTractionKindNames.begin(), kTractionKindNames.end());
-  law.kind = static_cast<TractionKind>(map.at("kind").choice(kinds));
+  const Map map = read_keys(value, traction_law_keys(), law);
   const auto refuse_other = [&](std::initializer_list<const char*> keys, bool allowed, const char* of) {
     for (const char* key : keys) {
       if (const auto written = map.find(key); written && !allowed) {
@@ -98,19 +95,18 @@ TractionLawDefinition read_traction_law(const Value& value) {
   refuse_other({"curve"}, mixed, "the law mixed");
   refuse_other({"mix"}, uncoupled, "laws whose directions know nothing of each other");
   if (pressure) {
-    law.pressure = map.at("pressure").function(kPressure);
-    if (law.pressure.uses_place()) map.at("pressure").fail("it acts on all of a crack; write a function of t");
-    if (const auto least = map.find("least_opening")) law.least_opening = least->non_negative(kLength);
+    if (map.at("pressure"); law.pressure.uses_place())
+      map.at("pressure").fail("it acts on all of a crack; write a function of t");
     return law;
   }
   TractionKind curve = uncoupled || law.kind == TractionKind::linear ? law.kind : TractionKind::triangular;
   if (const auto written = map.find("curve")) {
-    law.curve = curve = static_cast<TractionKind>(written->choice({kinds.begin(), kinds.begin() + 4}));
+    law.curve = curve =
+        static_cast<TractionKind>(written->choice({kTractionKindNames.begin(), kTractionKindNames.begin() + 4}));
   }
   law.normal = read_mode(map.at("normal"), curve);
   const auto shear = map.find("shear");
   law.shear = shear ? read_mode(*shear, curve) : law.normal;
-  if (const auto mix = map.find("mix")) law.mix = mix->non_negative(kPlain);
   try {
     TractionLawDefinition nameless = law;
     nameless.where.clear();

@@ -6,6 +6,7 @@
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/transport/transport_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr Dimension kHeatFlux{0, 1, -3, 0, 0};
 constexpr Dimension kHeatSource{-1, 1, -3, 0, 0};
 constexpr Dimension kConductance{0, 1, -3, 0, -1};
-constexpr Dimension kBodyCapacity{2, 1, -2, 0, -1};
 constexpr double kRoom = 293.0;  // [K]
 
 Dimension flux_dimension(Transported quantity) { return quantity == Transported::temperature ? kHeatFlux : kVelocity; }
@@ -118,28 +118,20 @@ void read_source(const Value& value, Scene& scene, QuantityDefinition& quantity)
 }
 
 void read_tool_heat(const Value& value, Scene& scene, QuantityDefinition& quantity) {
-  const Map map(value, {"body", "conductance", "temperature", "heat_capacity", "friction_part"});
   ToolHeatDefinition tool;
+  tool.friction_part = 0.5;
+  const Map map = read_keys(value, tool_heat_keys(), tool);
+  tell_defaults(map, tool_heat_keys(), scene);
   std::vector<std::string> tools;
   for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) tools.push_back(body.name);
   tool.body = map.at("body").text();
   if (std::find(tools.begin(), tools.end(), tool.body) == tools.end()) {
     map.at("body").fail(fmt::format("no rigid body '{}'; {}", tool.body, suggest(tool.body, tools)));
   }
-  tool.conductance = map.at("conductance").positive(kConductance);
   for (const ToolHeatDefinition& other : quantity.tools) {
     if (other.body == tool.body) value.fail(fmt::format("a second entry of '{}'; write one", tool.body));
   }
-  tool.temperature = read_value(map.at("temperature"), Transported::temperature);
   if (tool.temperature.uses_place()) map.at("temperature").fail("a tool has one temperature; write a function of t");
-  if (const auto capacity = map.find("heat_capacity")) tool.capacity = capacity->positive(kBodyCapacity);
-  tool.friction_part = 0.5;
-  if (const auto part = map.find("friction_part")) {
-    tool.friction_part = part->non_negative(kPlain);
-    if (tool.friction_part > 1.0) part->fail("a part of the heat of friction that goes to the material; 1 at most");
-  } else {
-    scene.choices.emplace_back(value.path() + ".friction_part", "0.5: tool and material share the heat of friction");
-  }
   quantity.tools.push_back(std::move(tool));
 }
 
@@ -152,12 +144,17 @@ void read_pair_heat(const Value& value, Scene& scene, QuantityDefinition& quanti
 }
 
 void read_quantity(const Value& value, const Map& root, Transported kind, Scene& scene) {
-  std::vector<std::string> keys = {"initial", "reference", "method", "order", "values", "fluxes", "sources"};
-  if (kind == Transported::temperature) keys.insert(keys.end(), {"compression_heat", "tools", "pairs"});
+  const bool heat = kind == Transported::temperature;
+  std::vector<std::string> keys = quantity_keys().names();
+  for (const std::string& key : heat_keys().names()) {
+    if (heat) keys.push_back(key);
+  }
   const Map map(value, keys);
   QuantityDefinition quantity;
   quantity.quantity = kind;
-  if (kind == Transported::temperature) quantity.reference = kRoom;
+  read_keys(map, quantity_keys(), quantity);
+  if (heat) read_keys(map, heat_keys(), quantity);
+  if (heat) quantity.reference = kRoom;
   if (const auto initial = map.find("initial")) {
     read_initial_values(*initial, scene, quantity);
     const Function& first = quantity.initial.front().second;
@@ -169,15 +166,8 @@ void read_quantity(const Value& value, const Map& root, Transported kind, Scene&
     quantity.reference = kind == Transported::temperature ? reference->non_negative(kTemperature)
                                                           : reference->number(value_dimension(kind));
   }
-  if (const auto method = map.find("method")) {
-    quantity.method = static_cast<RateMethod>(method->choice({"nodal_capacity", "particle_capacity"}));
-  }
-  if (const auto order = map.find("order")) {
-    quantity.order = order->integer();
-    if (quantity.order != 1 && quantity.order != 2) order->fail("write 1 or 2");
-    if (quantity.order == 2 && quantity.method == RateMethod::particle_capacity) {
-      order->fail("particle_capacity is of order 1; leave it out");
-    }
+  if (map.find("order") && quantity.order == 2 && quantity.method == RateMethod::particle_capacity) {
+    map.at("order").fail("particle_capacity is of order 1; leave it out");
   }
   const auto each = [&](const char* key, void (*read)(const Value&, Scene&, QuantityDefinition&)) {
     if (const auto list = map.find(key)) {
@@ -190,7 +180,6 @@ void read_quantity(const Value& value, const Map& root, Transported kind, Scene&
   if (kind == Transported::temperature) {
     each("tools", read_tool_heat);
     each("pairs", read_pair_heat);
-    if (const auto heat = map.find("compression_heat")) quantity.compression_heat = heat->choice({"on", "off"}) == 0;
   }
   const std::vector<Value> materials = root.at("materials").elements();
   for (std::size_t m = 0; m < materials.size(); ++m) {

@@ -22,8 +22,6 @@ struct NamedUnit {
   Unit unit;
 };
 
-constexpr Dimension kPower{2, 1, -3, 0};
-
 // Inch, foot, pound, ounce, pound-force: international definitions (NIST SP 811, appendix B).
 constexpr double kPound = 0.45359237;
 constexpr double kPoundForce = kPound * 9.80665;
@@ -150,49 +148,6 @@ std::string advice_for(const std::string& name) {
   return fmt::format("did you mean {}?", text);
 }
 
-struct DimensionText {
-  Dimension dimension;
-  const char* noun;
-  const char* example;
-};
-const std::array kDimensions = {
-    DimensionText{kPlain, "a number without a unit", "0.3"},
-    DimensionText{kLength, "a length", "10 mm"},
-    DimensionText{kArea, "an area", "1 cm^2"},
-    DimensionText{kMass, "a mass", "2 kg"},
-    DimensionText{kTime, "a time", "0.2 s"},
-    DimensionText{kAngle, "an angle", "35 deg"},
-    DimensionText{kRate, "a rate", "5 1/s"},
-    DimensionText{kAngularRate, "a rotation rate", "10 deg/s"},
-    DimensionText{kVelocity, "a velocity", "1.7 km/s"},
-    DimensionText{kAcceleration, "an acceleration", "9.81 m/s^2"},
-    DimensionText{kAngularAcceleration, "a rotational acceleration", "90 deg/s^2"},
-    DimensionText{kDensity, "a density", "1600 kg/m^3"},
-    DimensionText{kPressure, "a pressure", "5 kPa"},
-    DimensionText{kToughness, "a fracture toughness", "2 MPa m^0.5"},
-    DimensionText{kForce, "a force", "3 N"},
-    DimensionText{kEnergy, "an energy", "3 J"},
-    DimensionText{kPower, "a power", "3 W"},
-    DimensionText{kViscosity, "a viscosity", "1 Pa s"},
-    DimensionText{kTemperature, "a temperature", "293 K"},
-    DimensionText{kHeatCapacity, "a heat capacity", "450 J/(kg K)"},
-};
-
-std::string base_units(const Dimension& dimension) {
-  std::string text;
-  const auto add = [&text](const char* name, double exponent) {
-    if (exponent == 0.0) return;
-    if (!text.empty()) text += ' ';
-    text += exponent == 1.0 ? std::string(name) : fmt::format("{}^{:g}", name, exponent);
-  };
-  add("m", dimension.length);
-  add("kg", dimension.mass);
-  add("s", dimension.time);
-  add("rad", dimension.angle);
-  add("K", dimension.temperature);
-  return text;
-}
-
 // product := factor { ['*' | ' ' | '/'] factor };  factor := [ '√' | 'sqrt' ] ( name | '1' | '(' product ')' ) [ ['^']
 // number ], the number a multiple of a half
 class UnitParser {
@@ -309,20 +264,6 @@ double base_unit(const std::string& text, const Dimension& expected, const char*
 }
 
 }  // namespace
-
-std::string describe(const Dimension& dimension) {
-  for (const DimensionText& known : kDimensions) {
-    if (known.dimension == dimension) return known.noun;
-  }
-  return "a quantity in " + base_units(dimension);
-}
-
-std::string example(const Dimension& dimension) {
-  for (const DimensionText& known : kDimensions) {
-    if (known.dimension == dimension) return known.example;
-  }
-  return "1 " + base_units(dimension);
-}
 
 Unit parse_unit(const std::string& text) {
   const std::string odd = odd_character(text);

@@ -20,8 +20,10 @@
 #include "mpm/simulation/implicit_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/rigid_rules.hpp"
+#include "mpm/simulation/section_keys.hpp"
 #include "mpm/simulation/threads.hpp"
 #include "mpm/simulation/transport_work.hpp"
+#include "mpm/sleep/sleep_keys.hpp"
 #include "particle_start.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -36,17 +38,16 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
+/// Refuses a part of the definition with a value out of its range.
+template <class T>
+void check_keys(const KeyTable<T>& table, const T& part) {
+  const auto fault = table.fault(part);
+  if (fault) throw DefinitionError(fmt::format("{}.{}: {}", table.section(), fault->key, fault->text));
+}
+
 void check(const SimulationDefinition& d, int ranks) {
   if (d.time.sync <= 0) throw DefinitionError("time.sync must be a positive number of nanoseconds");
-  if (!(d.time.cfl > 0.0 && d.time.cfl < 1.0)) {
-    throw DefinitionError(fmt::format("time.cfl is {}, must lie between 0 and 1", d.time.cfl));
-  }
-  if (d.time.step && !(*d.time.step > 0.0)) {
-    throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
-  }
-  if (d.time.budget && !(*d.time.budget > 0.0)) {
-    throw DefinitionError(fmt::format("time.budget is {}, must be positive", *d.time.budget));
-  }
+  check_keys(time_keys(), d.time);
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
@@ -56,6 +57,7 @@ void check(const SimulationDefinition& d, int ranks) {
   if (const auto fault = implicit_fault(d)) {
     throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
+  if (d.sleep) check_keys(sleep_keys(), *d.sleep);
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");

@@ -39,12 +39,6 @@ Fault method_part(const SimulationDefinition& d) {
     return MethodFault{"method.gradient_terms",
                        fmt::format("implicit steps have {} terms; leave it out", MethodDefinition().gradient_terms)};
   }
-  if (method.sweeps && !(*method.sweeps >= 1 && *method.sweeps <= kMostImplicitSweeps)) {
-    return MethodFault{"method.sweeps",
-                       fmt::format("{} is not possible; write 1 to {}, or leave it out for as many as the pressure "
-                                   "on tools asks for",
-                                   *method.sweeps, kMostImplicitSweeps)};
-  }
   if (method.sweeps && d.time.budget && *method.sweeps <= kLeastSweeps) {
     return MethodFault{"time.budget",
                        fmt::format("it ends no step before {} sweeps, and method.sweeps is {}; leave one "

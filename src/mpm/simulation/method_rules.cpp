@@ -8,6 +8,8 @@
 #include "mpm/kernel/select.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/simulation/feature_rules.hpp"
+#include "mpm/simulation/section_keys.hpp"
+#include "mpm/step/damping_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -15,7 +17,6 @@ namespace {
 using Fault = std::optional<MethodFault>;
 
 constexpr int kMostOrder = 20;  ///< a pass over all particles each; the series has long converged
-constexpr int kMostTerms = 12;  ///< |A|^13 / 13! is below the last digit for the |A| < 0.3 of a step
 
 Fault shape_fault(const MethodDefinition& method, GeometryKind geometry) {
   if (has_shape(method.shape, geometry)) return {};
@@ -59,25 +60,19 @@ bool may_lock(GeometryKind geometry) {
   return geometry != GeometryKind::line && geometry != GeometryKind::plane_stress;
 }
 
-Fault rate_fault(const char* key, const Function& rate) {
-  const std::string path = std::string("damping.") + key;
-  if (rate.uses_start()) return MethodFault{path, "damping is a function of t, x, y, z; X, Y, Z are not kept for it"};
-  if (rate.is_constant() && !(rate(0.0) >= 0.0 && std::isfinite(rate(0.0)))) {
-    return MethodFault{path, fmt::format("{:g} 1/s is not possible; write a finite rate, 0 or more", rate(0.0))};
-  }
-  return {};
+Fault start_fault(const char* key, const Function& rate) {
+  if (!rate.uses_start()) return {};
+  return MethodFault{std::string("damping.") + key, "damping is a function of t, x, y, z; X, Y, Z are not kept for it"};
+}
+
+/// The fault of a part of the section, with the path to it.
+Fault within(const char* part, Fault fault) {
+  if (fault) fault->key = std::string(part) + "." + fault->key;
+  return fault;
 }
 
 Fault feedback_fault(const FeedbackDefinition& feedback) {
-  if (!(feedback.gain > 0.0) || !std::isfinite(feedback.gain)) {
-    return MethodFault{"damping.feedback",
-                       "feedback without a gain does nothing; write gain: 100 1/m^2, or grid: 20 1/s for a rate that "
-                       "does not steer itself"};
-  }
-  if (!(feedback.limit > 0.0)) {
-    return MethodFault{"damping.feedback.limit",
-                       fmt::format("{:g} 1/s is not greater than 0; leave it out for no limit", feedback.limit)};
-  }
+  if (Fault fault = within("damping.feedback", feedback_keys().fault(feedback))) return fault;
   if (feedback.target.uses_place()) {
     return MethodFault{"damping.feedback.target",
                        "the target is the energy of all bodies; write a function of t alone"};
@@ -89,11 +84,6 @@ Fault feedback_fault(const FeedbackDefinition& feedback) {
 Fault pic_fault(const MethodDefinition& method) {
   const Function& pic = method.damping.pic;
   if (pic.is_zero()) return {};
-  if (pic.uses_start()) return rate_fault("pic", pic);
-  if (pic.is_constant() && !(pic(0.0) > 0.0 && pic(0.0) <= 1.0)) {
-    return MethodFault{"damping.pic",
-                       fmt::format("'{:g}' is not a fraction; write one from 0 (FLIP) to 1 (PIC)", pic(0.0))};
-  }
   if (method.transfer.kind != TransferKind::flip) {
     return MethodFault{"damping.pic", fmt::format("transfer {} has no part of PIC to change; use transfer flip",
                                                   kTransferNames[static_cast<int>(method.transfer.kind)])};
@@ -113,8 +103,10 @@ Fault pic_fault(const MethodDefinition& method) {
 
 Fault damping_fault(const MethodDefinition& method) {
   const DampingDefinition& damping = method.damping;
-  if (const Fault fault = rate_fault("grid", damping.grid)) return fault;
-  if (const Fault fault = rate_fault("particle", damping.particle)) return fault;
+  if (Fault fault = within("damping", damping_keys().fault(damping))) return fault;
+  if (const Fault fault = start_fault("grid", damping.grid)) return fault;
+  if (const Fault fault = start_fault("particle", damping.particle)) return fault;
+  if (const Fault fault = start_fault("pic", damping.pic)) return fault;
   if (damping.feedback) {
     if (const Fault fault = feedback_fault(*damping.feedback)) return fault;
   }
@@ -165,12 +157,9 @@ bool shares_stress(const SimulationDefinition& definition, const DeformableBody&
 }
 
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {
+  if (const Fault fault = method_keys().fault(method)) return fault;
   if (const Fault fault = shape_fault(method, geometry)) return fault;
   if (const Fault fault = transfer_fault(method)) return fault;
-  if (method.gradient_terms < 1 || method.gradient_terms > kMostTerms) {
-    return MethodFault{"gradient_terms", fmt::format("{} is not possible; write 1 to {} terms, as 2, the default",
-                                                     method.gradient_terms, kMostTerms)};
-  }
   if (const Fault fault = damping_fault(method)) return fault;
   return pair_fault(method, geometry);
 }

@@ -1,4 +1,4 @@
-#include "mpm/material/user_law.hpp"
+#include "mpm/material/add_user_law.hpp"
 
 #include <fmt/core.h>
 
@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "mpm/material/law.hpp"
+#include "mpm/material/law_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -21,7 +22,29 @@ Added& added() {
   return all;
 }
 
+KeyTable<UserLawDefinition> keys_of(const UserLawKind& kind) {
+  using User = UserLawDefinition;
+  std::vector<Key<User>> rows;
+  const std::size_t count = kind.constants.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const UserConstant& constant = kind.constants[i];
+    KeyText text{constant.otherwise ? fmt::format("{:g}", *constant.otherwise) : kRequired, "constant of the law"};
+    rows.push_back({{constant.key, std::move(text), constant.dimension, constant.range}, [i, count](User& of) {
+                      of.constants.resize(count);
+                      return KeyPlace(&of.constants[i]);
+                    }});
+  }
+  return KeyTable<User>("materials." + kind.name).part(&User::elasticity, elasticity_keys()).rows(std::move(rows));
+}
+
 }  // namespace
+
+UserLawDefinition UserLawKind::fresh() const {
+  UserLawDefinition law;
+  law.kind = this;
+  for (const UserConstant& constant : constants) law.constants.push_back(constant.otherwise.value_or(0.0));
+  return law;
+}
 
 const std::vector<const UserLawKind*>& user_laws() { return added().list; }
 
@@ -29,12 +52,13 @@ bool add_user_law(UserLawKind kind) {
   bool taken = listed_law(kind.name);
   for (const UserLawKind* other : user_laws()) taken = taken || other->name == kind.name;
   if (taken) throw MaterialError(fmt::format("a second law '{}'; give it a name of its own", kind.name));
-  std::vector<std::string> keys = {"name", "density", "law", "young", "poisson"};
-  for (const UserConstant& constant : kind.constants) {
-    if (std::find(keys.begin(), keys.end(), constant.key) != keys.end()) {
-      throw MaterialError(fmt::format("law '{}' has the key '{}' twice; leave one out", kind.name, constant.key));
+  kind.keys = keys_of(kind);
+  std::vector<std::string> keys = material_keys().names();
+  for (const std::string& key : kind.keys.names()) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+      throw MaterialError(fmt::format("law '{}' has the key '{}' twice; leave one out", kind.name, key));
     }
-    keys.push_back(constant.key);
+    keys.push_back(key);
   }
   added().kinds.push_back(std::move(kind));
   added().list.push_back(&added().kinds.back());

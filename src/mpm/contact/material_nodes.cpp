@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mpm/contact/material_contact.hpp"
+#include "mpm/loop/loop.hpp"
 #include "mpm/step/coulomb.hpp"
 
 namespace mpm {
@@ -22,10 +23,9 @@ void MaterialContact::momentum_gathered(StepContext& context) {
   for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
     if (surveyed_[f] != 0.0) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);
   }
-  const int count = static_cast<int>(shared_.list().size());
-  nodes_.blocks.resize(count);
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-  for (int i = 0; i < count; ++i) find_nodes(shared_.list()[i], context.dt, nodes_.blocks[i]);
+  nodes_.blocks.resize(shared_.list().size());
+  for_all("contact: nodes that bodies share", settings_.threads, nodes_.blocks.size(),
+          [&](std::size_t i) { find_nodes(shared_.list()[i], context.dt, nodes_.blocks[i]); });
 }
 
 // Ranks survey a field together.

@@ -9,6 +9,8 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/for_particles.hpp"
+#include "mpm/transport/local_gain.hpp"
 #include "visits.hpp"
 
 namespace mpm {
@@ -46,7 +48,7 @@ void Transport::prepare_expansion() {
 template <class Term>
 double Transport::sum_over(const ParticleSet& set, Term&& term) {
   sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-  each_group(set.awake(), parts_.threads, [&](int first, int last, int group) {
+  for_particle_groups("transport: sums", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
     for (int p = first; p < last; ++p) sums_[group] += term(p);
   });
   return std::accumulate(sums_.begin(), sums_.end(), 0.0);

@@ -3,6 +3,7 @@
 
 #include "mpm/contact/material_contact.hpp"
 #include "mpm/loop/loop.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/step/coulomb.hpp"
 
 namespace mpm {
@@ -31,7 +32,7 @@ void MaterialContact::momentum_gathered(StepContext& context) {
 // Ranks survey a field together.
 void MaterialContact::find_surveyed() {
   for (std::size_t f = 0; f < fields_.size(); ++f) surveyed_[f] = shared_.any(static_cast<int>(f)) ? 1.0 : 0.0;
-  if (settings_.ranks != nullptr) settings_.ranks->largest(surveyed_.data(), static_cast<int>(surveyed_.size()));
+  find_largest(settings_.ranks, surveyed_.data(), static_cast<int>(surveyed_.size()));
 }
 
 void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const {

@@ -9,6 +9,7 @@
 #include "field_passes.hpp"
 #include "increments.hpp"
 #include "mpm/particles/for_particles.hpp"
+#include "mpm/ranks/of_all.hpp"
 
 namespace mpm {
 namespace {
@@ -285,7 +286,7 @@ class Continuum final : public Mechanics {
     for (std::size_t f = 0; f < passes_.fields().size(); ++f) {
       Field& field = passes_.fields()[f];
       if (patches) settings_.choice->give(patches->mean, static_cast<int>(f), field.mean);
-      if (settings_.halo != nullptr) settings_.halo->add(static_cast<int>(f), field.mean);
+      add_of_others(settings_.halo, static_cast<int>(f), field.mean);
       passes_.each_carrying(kMeans, field.grid,
                             [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
       if (patches) settings_.choice->take(field.mean, static_cast<int>(f), patches->mean);

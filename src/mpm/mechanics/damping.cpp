@@ -182,7 +182,7 @@ void DampingControl::end_step(const StepContext& context, const Damped& damped) 
   if (!definition().feedback) return;
   const FeedbackDefinition& feedback = *definition().feedback;
   const double energy = feedback.of == FeedbackDefinition::Of::grid ? damped.grid_energy : damped.particle_energy;
-  alpha_ = std::min(alpha_ + context.dt * growth(of_all_ranks(energy), context.start), feedback.limit);
+  alpha_ = std::min(alpha_ + context.dt * growth(sum_of_all(ranks_, energy), context.start), feedback.limit);
 }
 
 double DampingControl::growth(double energy, double t) const {
@@ -194,7 +194,7 @@ double DampingControl::growth(double energy, double t) const {
 }
 
 void DampingControl::limit_step(const PeriodAhead& period, StepLimit& limit) const {
-  const double energy = needs_energy() ? of_all_ranks(kinetic_energy(sets_, threads_)) : 0.0;
+  const double energy = needs_energy() ? sum_of_all(ranks_, kinetic_energy(sets_, threads_)) : 0.0;
   const double rate = largest_rate(period.start, period.length, energy, fields_.front()->layout);
   StepLimit own;
   own.by = this;

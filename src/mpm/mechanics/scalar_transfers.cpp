@@ -4,6 +4,7 @@
 
 #include "mpm/grid/for_nodes.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
+#include "mpm/ranks/of_all.hpp"
 
 namespace mpm {
 namespace {
@@ -58,16 +59,14 @@ class ScalarTransferOf final : public ScalarTransfer {
     give_own(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
       kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), sink.data());
     });
-    if (halo_ != nullptr && !chosen_from(field)) halo_->add(field, to);  // else diffuse_chosen() has more to give
+    if (!chosen_from(field)) add_of_others(halo_, field, to);  // else diffuse_chosen() has more to give
   }
 
   void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
                       std::vector<NodalField>& to) override {
     if (choice_ == nullptr) return;
     if (choice_->patches() > 0) diffuse_in_patches(conducts, from, to);
-    for (const int field : choice_->chosen()) {
-      if (halo_ != nullptr) halo_->add(field, to[field]);
-    }
+    for (const int field : choice_->chosen()) add_of_others(halo_, field, to[field]);
   }
 
  private:
@@ -176,7 +175,7 @@ class ScalarTransferOf final : public ScalarTransfer {
   void each_giving(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
     give_own(field, of, to, only, pass);
     if (chosen(field)) give_of_patches(field, of, to, only, pass);
-    if (halo_ != nullptr) halo_->add(field, to);
+    add_of_others(halo_, field, to);
   }
 
   template <class Pass>

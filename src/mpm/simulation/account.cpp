@@ -6,6 +6,7 @@
 
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
 
@@ -127,7 +128,7 @@ std::pair<std::size_t, std::size_t> Simulation::State::rows_of(std::uint64_t fir
 }
 
 double Simulation::State::from_first(double value) const {
-  return !over ? value : over->ranks().sum(over->ranks().first() ? value : 0.0);
+  return sum_of_all(ranks.get(), is_first(ranks.get()) ? value : 0.0);
 }
 
 Vec3 Simulation::State::impulse(const std::string& account) const {

@@ -13,6 +13,7 @@
 
 #include "mpm/implicit/implicit_step.hpp"
 #include "mpm/loop/loop.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -163,7 +164,7 @@ StepLimit Simulation::State::survey_material() const {
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     double shear = shear_of(definition, sets[s], layout(), threads);
-    if (over && definition.method.shape == ShapeKind::cpdi) over->ranks().largest(&shear, 1);
+    if (definition.method.shape == ShapeKind::cpdi) shear = largest_of_all(ranks.get(), shear);
     if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;

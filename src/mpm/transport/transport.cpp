@@ -10,6 +10,7 @@
 #include "mpm/math/constants.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/particles/for_particles.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/transport/local_gain.hpp"
 #include "visits.hpp"
 
@@ -163,17 +164,16 @@ double Transport::budget_error(const TransportedField& field) const {
     given += account.given;
     exchanged += account.exchanged;
   }
-  if (parts_.ranks != nullptr) parts_.ranks->sum(sums, 3);
+  add_up(parts_.ranks, sums, 3);
   const double error = std::abs(gained - given);
   if (error <= kRoundOff * exchanged) return exchanged > 0.0 ? error / exchanged : 0.0;
-  double content = field.content();
-  if (parts_.ranks != nullptr) parts_.ranks->sum(&content, 1);
+  const double content = sum_of_all(parts_.ranks, field.content());
   if (error <= kRoundOff * content) return error / content;
   return error / std::max(exchanged, kRoundOff * content);
 }
 
 void Transport::numbers(std::vector<NamedNumber>& list) const {
-  const double once = parts_.ranks == nullptr || parts_.ranks->first() ? 1.0 : 0.0;  // weight of what all ranks know
+  const double once = is_first(parts_.ranks) ? 1.0 : 0.0;  // weight of what all ranks know
   for (const auto& field : fields_) {
     const auto kind = static_cast<int>(field->quantity());
     const std::string name = kQuantityNames[kind], unit = kContentUnits[kind];

@@ -9,6 +9,7 @@
 
 #include "mpm/math/dimension.hpp"
 #include "mpm/particles/for_particles.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/transport/local_gain.hpp"
 #include "visits.hpp"
 
@@ -176,7 +177,7 @@ void TransportedField::ask_to_stop() {
   if (!parts_.interrupt) return;
   if (parts_.ranks != nullptr && ++asked_ % kRanksEvery != 0) return;
   const bool own = parts_.interrupt();
-  if (parts_.ranks == nullptr ? !own : !parts_.ranks->any(own)) return;
+  if (!any_of_all(parts_.ranks, own)) return;
   throw StoppedError(fmt::format("stopped within a step, while the {} moved in stages",
                                  kQuantityNames[static_cast<int>(definition_.quantity)]));
 }
@@ -248,7 +249,7 @@ double TransportedField::content() const {
 
 bool TransportedField::pending() const {
   const bool own = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) { return source->pending(); });
-  return parts_.ranks == nullptr || sources_.empty() ? own : parts_.ranks->any(own);
+  return sources_.empty() ? own : any_of_all(parts_.ranks, own);
 }
 
 std::vector<ContentAccount> TransportedField::accounts() const {

@@ -99,7 +99,7 @@ class Subject {
  private:
   template <class Pass>
   void each(Pass&& pass) {
-    mpm::each_owner(block_.grid, 1, pass);
+    mpm::each_owner("pass", block_.grid, 1, pass);
   }
   Block block_;
   Kernels kernels_;

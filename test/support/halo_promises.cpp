@@ -139,7 +139,7 @@ class Part {
     }
     std::size_t given = 0;
     const auto give = [&](int field, const BlockShares& owners) {
-      owners.by_colour(1, [&](int owner) { given += give_of(field, owner); });
+      owners.by_colour("loop", 1, [&](int owner) { given += give_of(field, owner); });
     };
     for (int f = 0; f < kFields; ++f) {
       give(f, halo_.at_border(f));

@@ -79,8 +79,8 @@ TEST(BlockShares, OfFewOwnersLeavePartsEmpty) {
     if (owners > 0) table.rebuild(keys);
     shares.rebuild(table, {}, 5);
     std::atomic<int> visited{0};
-    shares.at_once(5, [&](int) { ++visited; });
-    shares.by_colour(5, [&](int) { ++visited; });
+    shares.at_once("loop", 5, [&](int) { ++visited; });
+    shares.by_colour("loop", 5, [&](int) { ++visited; });
     EXPECT_EQ(visited, 2 * owners);
   }
 }
@@ -98,7 +98,7 @@ TEST(BlockShares, TakeNeighboursInTheOrderOfTheirColours) {
         for (const int threads : {1, 2, 5, 8}) {
           std::atomic<int> clock{0};
           std::vector<int> began(owners, -1), ended(owners, -1), visits(owners, 0);
-          shares.by_colour(threads, [&](int owner) {
+          shares.by_colour("loop", threads, [&](int owner) {
             began[owner] = clock++;
             for (std::uint32_t i = 0; i < 50 * bed.particles[owner]; ++i) clock.load();
             ++visits[owner];
@@ -134,8 +134,8 @@ TEST(BlockShares, OfMarkedOwnersDivideTheOwners) {
   marked.rebuild_of(all, bed.table, marks);
   others.rebuild_of(all, bed.table, rest);
   std::vector<int> by_marked(owners, 0), by_others(owners, 0);
-  marked.by_colour(2, [&](int owner) { ++by_marked[owner]; });
-  others.by_colour(2, [&](int owner) { ++by_others[owner]; });
+  marked.by_colour("loop", 2, [&](int owner) { ++by_marked[owner]; });
+  others.by_colour("loop", 2, [&](int owner) { ++by_others[owner]; });
   for (int o = 0; o < owners; ++o) {
     EXPECT_EQ(by_marked[o], marks[o]) << o;
     EXPECT_EQ(by_others[o], rest[o]) << o;

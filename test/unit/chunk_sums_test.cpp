@@ -1,5 +1,5 @@
 // Sums over chunks of a list: every entry once, and the same bits for any number of threads.
-#include "mpm/step/chunk_sums.hpp"
+#include "mpm/loop/chunk_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ TEST(ChunkSums, VisitEveryEntryOnceAndHaveTheSameBits) {
     for (const int threads : {1, 2, 3, 8}) {
       ChunkSums<double> sums;
       std::vector<int> visits(entries, 0);
-      found.push_back(sums.over(entries, threads, [&](std::size_t i, double& sum) {
+      found.push_back(sums.over("loop", entries, threads, [&](std::size_t i, double& sum) {
         ++visits[i];
         sum += number(i);
       }));

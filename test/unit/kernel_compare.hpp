@@ -60,7 +60,7 @@ class KernelComparison {
   template <class Pass>
   void each_block(const std::vector<mpm_kernel::SetView<T>>& sets, Pass&& pass) {
     const GridView grid = view_of(scene_.grid);
-    each_owner(scene_.grid, 1, [&](const mpm_kernel::BlockView& block) {
+    each_owner("loop", scene_.grid, 1, [&](const mpm_kernel::BlockView& block) {
       pass(grid, block, sets.data(), static_cast<int>(sets.size()));
     });
   }

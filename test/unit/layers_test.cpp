@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <string>
@@ -17,10 +18,11 @@ namespace fs = std::filesystem;
 
 using Layers = std::map<std::string, int>;
 
-const Layers kLayers = {{"math", 1},      {"grid", 2},    {"particles", 2},  {"keys", 2},   {"shape", 3},
-                        {"material", 3},  {"rigid", 3},   {"ranks", 3},      {"step", 4},   {"kernel", 4},
-                        {"mechanics", 5}, {"contact", 5}, {"boundary", 5},   {"sleep", 5},  {"implicit", 6},
-                        {"transport", 5}, {"crack", 6},   {"simulation", 7}, {"choice", 8}, {"pace", 8},
+const Layers kLayers = {{"math", 1},      {"loop", 1},    {"grid", 2},       {"particles", 2}, {"keys", 2},
+                        {"shape", 3},     {"material", 3}, {"rigid", 3},     {"ranks", 3},     {"step", 4},
+                        {"kernel", 4},    {"mechanics", 5}, {"contact", 5},  {"boundary", 5},  {"sleep", 5},
+                        {"implicit", 6},  {"transport", 5}, {"crack", 6},    {"simulation", 7}, {"choice", 8},
+                        {"pace", 8},
                         {"scene", 9},     {"sweep", 10},  {"study", 10}};
 const Layers kRosLayers = {{"message", 1}, {"csv", 2}, {"command", 3}, {"sweep", 3},
                            {"report", 4},  {"run", 5}, {"node", 6}};
@@ -76,6 +78,18 @@ TEST(Layers, LibraryIncludesNoRosHeader) {
   const auto includes = includes_of("mpm");
   ASSERT_FALSE(includes.empty());
   for (const auto& include : includes) EXPECT_FALSE(std::regex_match(include.header, ros)) << place(include);
+}
+
+// So that every loop has a name in a profile, and how loops are shared out can change in one place.
+TEST(Layers, ThreadsAreStartedInOneFile) {
+  for (const char* root : {"include", "src"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(mpm::source_folder()) / root)) {
+      if (!entry.is_regular_file() || entry.path().filename() == "loop.hpp") continue;
+      std::ifstream stream(entry.path());
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      EXPECT_EQ(text.find("#pragma omp"), std::string::npos) << entry.path();
+    }
+  }
 }
 
 TEST(Layers, FoldersIncludeOnlyLowerLayers) {

@@ -1,6 +1,6 @@
 // Profile of a run: what parts within others take is taken off, the rows of a run name its passes and modules and add
 // up to its wall time, and it changes no bit. 0.2 s.
-#include "mpm/step/profile.hpp"
+#include "mpm/loop/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "mpm/loop/loop.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 
@@ -31,9 +32,10 @@ TEST(Profile, TakesPartsWithinOffWhatIsAround) {
   TimeProfile profile;
   const auto start = Clock::now();
   {
-    const TimeProfile::Part outer(&profile, "outer");
+    const TimeProfile::Use use(&profile);
+    const TimeProfile::Part outer("outer");
     for (int i = 0; i < 2; ++i) {
-      const TimeProfile::Part inner(&profile, [] { return std::string("inner"); });
+      const TimeProfile::Part inner([] { return std::string("inner"); });
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
@@ -47,8 +49,24 @@ TEST(Profile, TakesPartsWithinOffWhatIsAround) {
   EXPECT_NE(profile.table(2.0 * whole).find("else"), std::string::npos);
 }
 
+TEST(Profile, CountsALoopWithThePartOfItsName) {
+  TimeProfile profile;
+  std::vector<int> visits(100, 0);
+  {
+    const TimeProfile::Use use(&profile);
+    const TimeProfile::Part pass("pass");
+    for_all("pass", 2, 100, [&](int i) { ++visits[i]; });
+    for_unlike("loop", 2, 100, [&](int i) { ++visits[i]; });
+  }
+  for_all("unseen", 2, 100, [&](int i) { ++visits[i]; });
+  EXPECT_EQ(visits, std::vector<int>(100, 3));
+  ASSERT_EQ(profile.rows().size(), 2U);
+  EXPECT_EQ(find(profile, "pass")->calls, 1U);
+  EXPECT_EQ(find(profile, "loop")->calls, 1U);
+}
+
 TEST(Profile, AsksForNoNameWithoutAProfile) {
-  const TimeProfile::Part part(nullptr, []() -> std::string { throw std::logic_error("asked"); });
+  const TimeProfile::Part part([]() -> std::string { throw std::logic_error("asked"); });
 }
 
 std::string scene(const std::string& update) {

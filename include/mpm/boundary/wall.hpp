@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "mpm/boundary/wall_definition.hpp"
-#include "mpm/step/chunk_sums.hpp"
+#include "mpm/loop/chunk_sums.hpp"
 #include "mpm/step/coulomb.hpp"
 #include "mpm/step/heat_sink.hpp"
 #include "mpm/step/node_loss.hpp"
@@ -92,7 +92,7 @@ class Wall final : public FieldStage {
   /// Visits the nodes with material on several threads, and books the sums.
   template <class Visit>
   void each_node(Visit&& visit) {
-    const Deeds all = deeds_.over(carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) {
+    const Deeds all = deeds_.over("walls: nodes", carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) {
       Deeds of_other_rank;
       visit(carrying_[i], nodes_[carrying_[i]].counts ? deeds : of_other_rank);
     });

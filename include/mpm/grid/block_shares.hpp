@@ -30,13 +30,14 @@ class BlockShares {
   /// First owner of a part; of part parts() one past the last.
   int begin(int part) const { return begin_[part]; }
 
-  // The loops over the owners are defined in each_share.hpp, for files that are compiled with OpenMP.
+  // The loops over the owners are defined in each_share.hpp, for files that are compiled with OpenMP. `name`: of the
+  // loop.
   /// visit(owner) for all owners, on so many threads: for what writes to no node of another owner.
   template <class Visit>
-  void at_once(int threads, Visit&& visit) const;
+  void at_once(const char* name, int threads, Visit&& visit) const;
   /// visit(owner) for all owners, at each node in the order of colours: for what scatters to a tile.
   template <class Visit>
-  void by_colour(int threads, Visit&& visit) const;
+  void by_colour(const char* name, int threads, Visit&& visit) const;
 
  private:
   /// Colours of which a part has done its owners beside other parts. A cache line each.

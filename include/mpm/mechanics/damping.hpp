@@ -21,6 +21,7 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/mechanics/first_fault.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/step/damping.hpp"
 #include "mpm/step/stage.hpp"
 
@@ -77,7 +78,7 @@ class DampingControl final : public Stage {
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   /// "alpha", of the feedback.
   void numbers(std::vector<NamedNumber>& list) const override {
-    list.push_back({"alpha", "1/s", ranks_ == nullptr || ranks_->first() ? alpha_ : 0.0});
+    list.push_back({"alpha", "1/s", is_first(ranks_) ? alpha_ : 0.0});
   }
   /// @throws DampingError
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
@@ -116,7 +117,6 @@ class DampingControl final : public Stage {
   Vec3 damp_nodes(Grid& grid, double dt);
   /// Mass of this rank's particles [kg].
   double mass() const;
-  double of_all_ranks(double own) const { return ranks_ == nullptr ? own : ranks_->sum(own); }
   /// d alpha/dt [1/s^2]. @throws DampingError
   double growth(double energy, double t) const;
 

@@ -41,14 +41,14 @@ void find_givers(const Grid& grid, const std::vector<std::uint8_t>& marked, std:
 
 /// pass(block) for every block that holds particles: for what writes to no node.
 template <class Pass>
-void each_owner_at_once(const Grid& grid, int threads, Pass&& pass) {
-  grid.shares.at_once(threads, [&](int owner) { pass(view_of(grid, owner)); });
+void each_owner_at_once(const char* name, const Grid& grid, int threads, Pass&& pass) {
+  grid.shares.at_once(name, threads, [&](int owner) { pass(view_of(grid, owner)); });
 }
 
 /// pass(block) for every block that holds particles, at a node a colour after the other.
 template <class Pass>
-void each_owner(const Grid& grid, int threads, Pass&& pass) {
-  grid.shares.by_colour(threads, [&](int owner) { pass(view_of(grid, owner)); });
+void each_owner(const char* name, const Grid& grid, int threads, Pass&& pass) {
+  grid.shares.by_colour(name, threads, [&](int owner) { pass(view_of(grid, owner)); });
 }
 
 }  // namespace mpm

@@ -35,11 +35,11 @@
 #include <memory>
 #include <vector>
 
+#include "mpm/loop/chunk_sums.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
-#include "mpm/step/chunk_sums.hpp"
 #include "mpm/step/scalar_transfer.hpp"
 #include "mpm/step/stage.hpp"
 

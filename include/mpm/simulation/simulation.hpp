@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mpm/kernel/isa.hpp"
+#include "mpm/loop/profile.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/math/stopped.hpp"
@@ -23,7 +24,6 @@
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/particle_choice.hpp"
 #include "mpm/simulation/report.hpp"
-#include "mpm/step/profile.hpp"
 
 namespace mpm {
 

@@ -28,13 +28,13 @@
 #include <string>
 #include <vector>
 
+#include "mpm/loop/chunk_sums.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/sleep/rest_watch.hpp"
 #include "mpm/sleep/sleep_across_ranks.hpp"
 #include "mpm/sleep/sleep_border.hpp"
 #include "mpm/sleep/sleep_definition.hpp"
 #include "mpm/sleep/sleeping_blocks.hpp"
-#include "mpm/step/chunk_sums.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mpm/grid/fields.hpp"
-#include "mpm/step/profile.hpp"
 
 namespace mpm {
 
@@ -16,7 +15,6 @@ struct StepContext {
   /// True if forces work on the velocities of the step's end, as in implicit steps; else they do on what particles are
   /// moved by.
   bool works_at_end = false;
-  TimeProfile* profile = nullptr;  ///< profile of the run, or null
 
   /// The layout that all fields share.
   const GridLayout& layout() const { return fields.front()->layout; }

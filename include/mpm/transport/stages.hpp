@@ -11,6 +11,7 @@
 #include <cstddef>
 
 #include "mpm/grid/nodal_fields.hpp"
+#include "mpm/loop/loop.hpp"
 
 namespace mpm {
 
@@ -63,8 +64,7 @@ void Stages::advance(int blocks, int threads, double dt, int stages, const Nodal
   flow(start, stages == 1 ? content : first_);
   double* to = content.data();
   if (stages == 1) {
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::ptrdiff_t i = 0; i < nodes; ++i) to[i] *= dt;
+    for_all("transport: stages", threads, nodes, [=](std::ptrdiff_t i) { to[i] *= dt; });
     return;
   }
   now_.resize(blocks);
@@ -73,12 +73,11 @@ void Stages::advance(int blocks, int threads, double dt, int stages, const Nodal
   const double whole = 4.0 / (static_cast<double>(stages) * stages + stages - 2.0);
   const double *from = start.block(0), *c = capacity.block(0), *q0 = first_.block(0);
   double *e1 = now_.data(), *e2 = before_.data(), *t = values_.data();
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::ptrdiff_t i = 0; i < nodes; ++i) {
+  for_all("transport: stages", threads, nodes, [&](std::ptrdiff_t i) {
     e2[i] = 0.0;
     e1[i] = part(1) * whole * dt * q0[i];
     t[i] = from[i] + (c[i] > least ? e1[i] / c[i] : 0.0);
-  }
+  });
   for (int j = 2; j <= stages; ++j) {
     between();
     // The values are those of stage j - 1, at this part of the update.
@@ -88,13 +87,12 @@ void Stages::advance(int blocks, int threads, double dt, int stages, const Nodal
     const double nu = -(j - 1.0) / j * part(j) / part(j - 2);
     const double weight = mu * whole * dt, first = -(1.0 - part(j - 1)) * weight;
     const double* q = flow_.data();
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::ptrdiff_t i = 0; i < nodes; ++i) {
+    for_all("transport: stages", threads, nodes, [=](std::ptrdiff_t i) {
       const double next = mu * e1[i] + nu * e2[i] + weight * q[i] + first * q0[i];
       e2[i] = e1[i];
       e1[i] = next;
       t[i] = from[i] + (c[i] > least ? next / c[i] : 0.0);
-    }
+    });
   }
   std::copy(e1, e1 + nodes, to);
 }

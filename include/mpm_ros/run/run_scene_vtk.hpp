@@ -11,6 +11,7 @@
 #include <string>
 
 #include "mpm/ranks/communicator.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/message_sink.hpp"
 #include "mpm_ros/message/stamps.hpp"
@@ -35,7 +36,7 @@ class VtkSink : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
 
  private:
-  bool first() const { return ranks_ == nullptr || ranks_->first(); }
+  bool first() const { return mpm::is_first(ranks_); }
   void write_piece(const VtkFile& file) const;
   /// Writes the file that names all pieces.
   void write_whole(const VtkFile& file, double time);

@@ -5,6 +5,7 @@
 
 #include "mpm/material/moduli.hpp"
 #include "mpm/ranks/lists.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/shape/spline_weights.hpp"
 
 namespace mpm {
@@ -108,10 +109,8 @@ std::vector<Absorbing::WaveSum> Absorbing::sum_waves(const Grid& grid) const {
 // The mean of the particles whose nearest node along the face this is, within a cell and a half of the face; where
 // there is none, of all of them.
 void Absorbing::find_waves(const Grid& grid) {
-  std::vector<WaveSum> list = sum_waves(grid);
-  if (ranks_ != nullptr) list = gather_list(*ranks_, list);
   std::unordered_map<std::uint64_t, WaveSum> sums;
-  for (const WaveSum& sum : list) sums[sum.column] += sum;
+  for (const WaveSum& sum : list_of_all(ranks_, sum_waves(grid))) sums[sum.column] += sum;
   const WaveSum& all = sums[kAllColumns];
   if (!(all.mass > 0.0)) columns_.clear();
   for (Column& column : columns_) {

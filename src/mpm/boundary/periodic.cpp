@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mpm/loop/loop.hpp"
+
 namespace mpm {
 
 Vec3 put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads) {
@@ -13,21 +15,23 @@ Vec3 put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int th
     for (ParticleSet& set : sets) {
       double* x = set.x[k].data();
       double* start = set.start_x.empty() ? nullptr : set.start_x[k].data();
-      const int size = set.size();
       // Whole numbers are summed, so the order does not matter; where masses differ one thread sums.
       const bool equal = set.masses.empty();
       double mass = 0.0;
-#pragma omp parallel for schedule(static) num_threads(equal ? threads : 1) reduction(+ : mass)
-      for (int p = 0; p < size; ++p) {
-        const double place = layout.in_cells(k, x[p]);
-        if (!(std::abs(place) < cells + kPeriodicReach + 1.0)) continue;
-        const int nearest = GridLayout::nearest(place);
-        const double shift = nearest < 0 ? length : (nearest >= cells ? -length : 0.0);
-        if (shift == 0.0) continue;
-        x[p] += shift;
-        mass += std::copysign(equal ? 1.0 : set.mass_of(p), shift);
-        if (start != nullptr) start[p] += shift;
-      }
+      for_parts("particles: back in the period", equal ? threads : 1, set.size(), [&](int first, int end, int) {
+        double own = 0.0;
+        for (int p = first; p < end; ++p) {
+          const double place = layout.in_cells(k, x[p]);
+          if (!(std::abs(place) < cells + kPeriodicReach + 1.0)) continue;
+          const int nearest = GridLayout::nearest(place);
+          const double shift = nearest < 0 ? length : (nearest >= cells ? -length : 0.0);
+          if (shift == 0.0) continue;
+          x[p] += shift;
+          own += std::copysign(equal ? 1.0 : set.mass_of(p), shift);
+          if (start != nullptr) start[p] += shift;
+        }
+        in_turn([&] { mass += own; });
+      });
       carried[layout.axis(k)] += length * (equal ? set.mass * mass : mass);
     }
   }

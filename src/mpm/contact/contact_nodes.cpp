@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mpm/loop/loop.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/shape/ring.hpp"
 
@@ -79,15 +80,12 @@ void ContactNodes::hold(Pass pass, Block& block, const Node& node, double dt, Fi
 
 template <class FieldOf>
 void ContactNodes::hold_nodes(Pass pass, double dt, FieldOf&& velocity) {
-  const int count = static_cast<int>(blocks.size());
-#pragma omp parallel num_threads(threads_)
-  {
+  for_parts("contact: velocities at nodes", threads_, blocks.size(), [&](std::size_t first, std::size_t end, int) {
     Scratch scratch;
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i) {
+    for (std::size_t i = first; i < end; ++i) {
       for (const Node& node : blocks[i].nodes) hold(pass, blocks[i], node, dt, velocity, scratch);
     }
-  }
+  });
 }
 
 void ContactNodes::update_node(Block& block, const Node& node, double dt, Scratch& scratch) {
@@ -129,15 +127,12 @@ void ContactNodes::strain(double dt) {
 }
 
 void ContactNodes::update(double dt) {
-  const int count = static_cast<int>(blocks.size());
-#pragma omp parallel num_threads(threads_)
-  {
+  for_parts("contact: impulses at nodes", threads_, blocks.size(), [&](std::size_t first, std::size_t end, int) {
     Scratch scratch;
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i) {
+    for (std::size_t i = first; i < end; ++i) {
       for (const Node& node : blocks[i].nodes) update_node(blocks[i], node, dt, scratch);
     }
-  }
+  });
   keep_held();
 }
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "mpm/contact/material_contact.hpp"
+#include "mpm/loop/loop.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/step/coulomb.hpp"
 
 namespace mpm {
@@ -22,16 +24,15 @@ void MaterialContact::momentum_gathered(StepContext& context) {
   for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
     if (surveyed_[f] != 0.0) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);
   }
-  const int count = static_cast<int>(shared_.list().size());
-  nodes_.blocks.resize(count);
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-  for (int i = 0; i < count; ++i) find_nodes(shared_.list()[i], context.dt, nodes_.blocks[i]);
+  nodes_.blocks.resize(shared_.list().size());
+  for_all("contact: nodes that bodies share", settings_.threads, nodes_.blocks.size(),
+          [&](std::size_t i) { find_nodes(shared_.list()[i], context.dt, nodes_.blocks[i]); });
 }
 
 // Ranks survey a field together.
 void MaterialContact::find_surveyed() {
   for (std::size_t f = 0; f < fields_.size(); ++f) surveyed_[f] = shared_.any(static_cast<int>(f)) ? 1.0 : 0.0;
-  if (settings_.ranks != nullptr) settings_.ranks->largest(surveyed_.data(), static_cast<int>(surveyed_.size()));
+  find_largest(settings_.ranks, surveyed_.data(), static_cast<int>(surveyed_.size()));
 }
 
 void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mpm/contact/point_solver.hpp"
+#include "mpm/loop/loop.hpp"
 #include "mpm/shape/spline_weights.hpp"
 #include "mpm/step/point_weights.hpp"
 
@@ -22,8 +23,7 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   found_count_.resize(found.size());
   found_block_.resize(found.size());
   found_at_edge_.resize(found.size());
-#pragma omp parallel for schedule(static) num_threads(std::clamp(count / kPointsPerThread, 1, threads_))
-  for (int i = 0; i < count; ++i) {
+  for_all("contact: weights of points", std::clamp(count / kPointsPerThread, 1, threads_), count, [&](int i) {
     const Grid& grid = *fields_[found[i].field];
     const PointWeights weights(grid, shape_, found[i].place);
     PointNode* nodes = &found_nodes_[static_cast<std::size_t>(i) * stride_];
@@ -43,7 +43,7 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
     }
     found_block_[i] = nodes_count > 0 ? grid.blocks.find(layout.key(block)) : -1;
     found_count_[i] = found_block_[i] < 0 ? 0 : nodes_count;
-  }
+  });
 }
 
 void PointSolver::cluster(const std::vector<ContactPoint>& found) {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "mpm/contact/particle_reach.hpp"
+#include "mpm/loop/loop.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/shape/ring.hpp"
 
@@ -193,11 +194,10 @@ void PointSearch::find_in(double dt) {
   find_jobs(farthest + layout.smallest_cell());
   while (of_job_.size() < jobs_.size()) of_job_.emplace_back();
   const int count = static_cast<int>(jobs_.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-  for (int i = 0; i < count; ++i) {
+  for_unlike("contact: search of points", threads_, count, [&](int i) {
     of_job_[i].clear();
     search<Geometry>(jobs_[i], dt, farthest, of_job_[i]);
-  }
+  });
   points_.clear();
   if (ranks_ != nullptr) return gather();
   for (int i = 0; i < count; ++i) points_.insert(points_.end(), of_job_[i].begin(), of_job_[i].end());

@@ -1,9 +1,9 @@
 #include "mpm/contact/point_solver.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "mpm/loop/loop.hpp"
 
 namespace mpm {
 namespace {
@@ -166,32 +166,34 @@ void PointSolver::sweep_prescribed() {
   const int threads = far ? 1 : threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
   Progress all[2];  // progress of this sweep, and of the next
-#pragma omp parallel num_threads(threads)
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    const bool back = sweep % 2 != 0;
-    Progress own;
-    for (int c = 0; c < colours; ++c) {
-      const int colour = back ? colours - 1 - c : c;
-      const int first = colour_begin_[colour], end = colour_begin_[colour + 1];
-      if (first == end) continue;
-#pragma omp for schedule(static)
-      for (int i = first; i < end; ++i) relax<Kind, false>(clusters_[back ? first + end - 1 - i : i], back, own);
+  for_team("contact: sweeps over points", threads, [&](const Team& team) {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      const bool back = sweep % 2 != 0;
+      Progress own;
+      for (int c = 0; c < colours; ++c) {
+        const int colour = back ? colours - 1 - c : c;
+        const int first = colour_begin_[colour], end = colour_begin_[colour + 1];
+        if (first == end) continue;
+        const auto [part_first, part_end] = team.part(end - first);
+        for (int i = part_first; i < part_end; ++i) {
+          relax<Kind, false>(clusters_[back ? end - 1 - i : first + i], back, own);
+        }
+        team.meet();
+      }
+      in_turn([&] {
+        all[sweep % 2].largest = std::max(all[sweep % 2].largest, own.largest);
+        all[sweep % 2].scale = std::max(all[sweep % 2].scale, own.scale);
+      });
+      team.meet();
+      const bool done = all[sweep % 2].largest <= kTolerance * all[sweep % 2].scale;
+      if (team.thread == 0) {
+        all[(sweep + 1) % 2] = {};
+        solving_threads_ = team.threads;
+      }
+      team.meet();
+      if (done) break;
     }
-#pragma omp critical
-    {
-      all[sweep % 2].largest = std::max(all[sweep % 2].largest, own.largest);
-      all[sweep % 2].scale = std::max(all[sweep % 2].scale, own.scale);
-    }
-#pragma omp barrier
-    const bool done = all[sweep % 2].largest <= kTolerance * all[sweep % 2].scale;
-#pragma omp single nowait
-    {
-      all[(sweep + 1) % 2] = {};
-      solving_threads_ = omp_get_num_threads();
-    }
-#pragma omp barrier
-    if (done) break;
-  }
+  });
 }
 
 template <PointSolver::Pass Kind>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mpm/loop/loop.hpp"
+
 namespace mpm {
 namespace {
 
@@ -70,8 +72,7 @@ void RigidContact::momentum_gathered(StepContext& context) {
   while (nodes_.size() < near_.size()) nodes_.emplace_back().reserve(layout.nodes_per_block());
 
   const int count = static_cast<int>(near_.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-  for (int i = 0; i < count; ++i) {
+  for_unlike("contact: nodes near a rigid body", threads_, count, [&](int i) {
     const auto [field, block] = near_[i];
     const Grid& grid = *fields_[field];
     nodes_[i].clear();
@@ -93,7 +94,7 @@ void RigidContact::momentum_gathered(StepContext& context) {
                            held_[field].find(HeldNodes::id(grid.blocks.key(block), n)),
                            {}});
     }
-  }
+  });
 }
 
 template <class Visit>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/step/coulomb.hpp"
 
@@ -45,7 +46,7 @@ void RigidParticleContact::find_surveyed() {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     surveyed_[f] = std::find(near_[f].begin(), near_[f].end(), 1) == near_[f].end() ? 0.0 : 1.0;
   }
-  if (settings_.ranks != nullptr) settings_.ranks->largest(surveyed_.data(), static_cast<int>(surveyed_.size()));
+  find_largest(settings_.ranks, surveyed_.data(), static_cast<int>(surveyed_.size()));
 }
 
 void RigidParticleContact::find_blocks() {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "mpm/particles/for_particles.hpp"
+
 namespace mpm {
 namespace {
 
@@ -37,8 +39,7 @@ void ToolSides::before_sort() {
     if (set.side.empty()) continue;
     double half = std::numeric_limits<double>::infinity();
     for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int p = 0; p < set.awake(); ++p) {  // near a tool nothing sleeps
+    for_particles("contact: sides of thin tools", set, threads_, [&](int p) {  // near a tool nothing sleeps
       Vec3 place = Vec3::Zero();
       for (int k = 0; k < layout_.dim(); ++k) place[layout_.axis(k)] = set.x[k][p];
       double band = kBand * largest;
@@ -49,9 +50,9 @@ void ToolSides::before_sort() {
         band = found.distance;
         nearest = &tool;
       }
-      if (nearest != nullptr && labelled_ && band < kPressed * half) continue;
+      if (nearest != nullptr && labelled_ && band < kPressed * half) return;
       set.side[p] = static_cast<std::uint8_t>(nearest == nullptr ? 0 : nearest->side(place));
-    }
+    });
   }
   labelled_ = true;
 }

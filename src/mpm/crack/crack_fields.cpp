@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mpm/crack/crossing.hpp"
+#include "mpm/particles/for_particles.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "mpm/shape/particle_domain.hpp"
 
@@ -100,8 +101,7 @@ void CrackFields::before_sort() {
   const GridLayout& layout = choice_.grid().layout;
   for (ParticleSet& set : sets_) {
     if (set.side.empty()) continue;
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int p = 0; p < set.awake(); ++p) {
+    for_particles("crack: particles near it", set, threads_, [&](int p) {
       std::array<int, 3> block{};
       bool finite = true;  // the sort tells of what is not, and of those outside, which may be put back
       for (int k = 0; k < 2; ++k) {
@@ -110,7 +110,7 @@ void CrackFields::before_sort() {
         if (finite) block[k] = GridLayout::nearest(std::clamp(cells, set.lowest[k], set.highest[k])) / kBlockEdge;
       }
       set.side[p] = finite && std::binary_search(listed_.begin(), listed_.end(), layout.key(block)) ? 1 : 0;
-    }
+    });
   }
 }
 

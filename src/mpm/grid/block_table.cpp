@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "mpm/loop/loop.hpp"
+
 namespace mpm {
 
 int BlockTable::find(std::uint64_t key) const {
@@ -72,22 +74,19 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
   if (layout_->any_periodic()) wrap_blocks();
 
   coordinates_.resize(keys_.size());
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t i = 0; i < keys_.size(); ++i) coordinates_[i] = layout_->block(keys_[i]);
+  for_all("grid: places of blocks", threads, keys_.size(),
+          [&](std::size_t i) { coordinates_[i] = layout_->block(keys_[i]); });
 
   const std::size_t owners = owner_keys.size();
   owner_block_.resize(owners);
   neighbours_.resize(owners * span_);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (int t = 0; t < threads; ++t) {
-    const std::size_t begin = owners * t / threads, end = owners * (t + 1) / threads;
-    if (begin == end) continue;
+  for_parts("grid: neighbours of blocks", threads, owners, [&](std::size_t begin, std::size_t end, int) {
     if (layout_->any_periodic()) {
       find_wrapped_neighbours(owner_keys, begin, end);
     } else {
       find_neighbours(owner_keys, begin, end);
     }
-  }
+  });
 
   for (auto& colour : colours_) colour.clear();
   for (std::size_t o = 0; o < owners; ++o) {

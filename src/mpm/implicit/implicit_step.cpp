@@ -87,20 +87,21 @@ class ImplicitStep final : public Stage, public ContactReporter {
   bool needs_sort() const override { return sorts_; }
 
   void momentum_updated(StepContext& context) override {
-    timed(context.profile, "implicit: particles to cells", [&] {
+    timed("implicit: particles to cells", [&] {
       if (soil_grid_.rebuild()) cells_.rebuild();
       load();
       cells_.gather(table_, nodes_, context.dt);
     });
-    timed(context.profile, "implicit: contact", [&] {
+    timed("implicit: contact", [&] {
       tools_.clear();
       walls_.clear();
-      soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.push(block_at(block), nodes_.data()); });
+      soil_grid_.shares().by_colour("implicit: contact", settings_.threads,
+                                    [&](int block) { table_.push(block_at(block), nodes_.data()); });
       tools_.find(nodes_, context.start, context.dt);
       walls_.find(nodes_, context.dt);
     });
-    timed(context.profile, "implicit: sweeps", [&] { solve(context.start, context.dt); });
-    timed(context.profile, "implicit: cells to particles", [&] {
+    timed("implicit: sweeps", [&] { solve(context.start, context.dt); });
+    timed("implicit: cells to particles", [&] {
       cells_.take(table_, nodes_, context.dt);
       store(context.dt);
     });
@@ -171,7 +172,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
     nodes_.resize(soil_grid_.numbers());
     before_.resize(soil_grid_.nodes());
     std::fill(nodes_.begin() + soil_grid_.nodes(), nodes_.end(), Node{});
-    soil_grid_.shares().at_once(settings_.threads, [&](int block) {
+    soil_grid_.shares().at_once("implicit: velocities of nodes", settings_.threads, [&](int block) {
       for (int n = 0; n < per_block; ++n) {
         Node& node = nodes_[block * per_block + n];
         node = {};
@@ -216,7 +217,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   /// Before a pair of sweeps: all unknowns go on (sweep_momentum.hpp).
   void go_on(double factor) {
     const int per_block = grid_.layout.nodes_per_block();
-    soil_grid_.shares().at_once(settings_.threads, [&](int block) {
+    soil_grid_.shares().at_once("implicit: extrapolation", settings_.threads, [&](int block) {
       const int first = block * per_block;
       table_.extrapolate(block_at(block), &nodes_[first], &before_[first], per_block, static_cast<T>(factor));
     });
@@ -224,13 +225,14 @@ class ImplicitStep final : public Stage, public ContactReporter {
   }
 
   void meet() {
-    soil_grid_.shares().by_colour(settings_.threads, [&](int block) { table_.meet(block_at(block), nodes_.data()); });
+    soil_grid_.shares().by_colour("implicit: sweeps over contacts", settings_.threads,
+                                  [&](int block) { table_.meet(block_at(block), nodes_.data()); });
     tools_.meet_free(table_, nodes_);
   }
 
   /// Sweeps the blocks that need it, then all contacts.
   void sweep(bool backwards) {
-    soil_grid_.shares().by_colour(settings_.threads, [&](int block) {
+    soil_grid_.shares().by_colour("implicit: sweeps over cells", settings_.threads, [&](int block) {
       if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
     });
     meet();
@@ -307,7 +309,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
       for (double& one : wall) one = -one;
     }
     deeds_.assign(grid_.blocks.size(), {});
-    soil_grid_.shares().at_once(settings_.threads, [&](int block) { deeds_[block] = store(block, dt); });
+    soil_grid_.shares().at_once("implicit: velocities to the grid", settings_.threads,
+                                [&](int block) { deeds_[block] = store(block, dt); });
     Vec3 light = Vec3::Zero();
     double taken = 0.0;
     for (const Deeds& deeds : deeds_) {

@@ -182,20 +182,20 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
       if (const int at = slot(soil, block); at >= 0) visit(at);
     }
   };
-  grid_.shares().at_once(threads_, [&](int block) {
+  grid_.shares().at_once("implicit: particles to cells", threads_, [&](int block) {
     each_slot(block, [&](int at) { std::fill_n(sums_.begin() + at, per_block, Sums{}); });
   });
   views_.clear();
   for (int body = 0; body < bodies; ++body) views_.push_back(view_of(body));
   const mpm_kernel::SoilPasses<T>& passes = table.passes;
-  grid.shares.by_colour(threads_, [&](int owner) {
+  grid.shares.by_colour("implicit: particles to cells", threads_, [&](int owner) {
     for (int body = 0; body < bodies; ++body) {
       each_owner(body, owner, [&](int first, int last, const int* corner, const mpm_kernel::SoilPlacesOf<T>& places) {
         passes.gather(views_[body], first, last, corner, places);
       });
     }
   });
-  grid_.shares().at_once(threads_, [&](int block) {
+  grid_.shares().at_once("implicit: groups of cells", threads_, [&](int block) {
     int groups = 0;
     each_slot(block, [&](int at) { groups += count_groups(sums_.data() + at, grid.layout.dim()); });
     begin_[block + 1] = groups;
@@ -205,7 +205,8 @@ void SoilCells<T>::gather(const mpm_kernel::SweepTable<T>& table, const std::vec
   const std::size_t size = begin_[blocks_];
   groups_.resize(size);
   masks_.resize(size);
-  grid_.shares().at_once(threads_, [&](int block) { make_groups(table, nodes, dt, block); });
+  grid_.shares().at_once("implicit: groups of cells", threads_,
+                         [&](int block) { make_groups(table, nodes, dt, block); });
 }
 
 template <class T>
@@ -358,11 +359,11 @@ void SoilCells<T>::find_motion(const mpm_kernel::SweepTable<T>& table, const std
 template <class T>
 void SoilCells<T>::take(const mpm_kernel::SweepTable<T>& table, const std::vector<Node>& nodes, double dt) {
   const Grid& grid = grid_.grid();
-  grid_.shares().at_once(threads_, [&](int block) {
+  grid_.shares().at_once("implicit: cells to particles", threads_, [&](int block) {
     for (int group = begin_[block]; group < begin_[block + 1]; ++group) find_motion(table, nodes, group);
   });
   const mpm_kernel::SoilPasses<T>& passes = table.passes;
-  grid.shares.at_once(threads_, [&](int owner) {
+  grid.shares.at_once("implicit: cells to particles", threads_, [&](int owner) {
     for (int body = 0; body < static_cast<int>(bodies_.list.size()); ++body) {
       each_owner(body, owner, [&](int first, int last, const int* corner, const mpm_kernel::SoilPlacesOf<T>& places) {
         passes.take(views_[body], first, last, corner, places, dt);

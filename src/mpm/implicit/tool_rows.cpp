@@ -62,7 +62,7 @@ template <class T>
 bool ToolRows<T>::put_out(std::vector<ParticleSet>& sets, Grid& grid) const {
   std::atomic<bool> far{false};
   for (const RigidBody* body : bodies_) {
-    grid.shares.at_once(settings_.threads, [&](int owner) {
+    grid.shares.at_once("implicit: particles out of tools", settings_.threads, [&](int owner) {
       for (ParticleSet& set : sets) {
         if (put_out(*body, set, grid, owner)) far.store(true, std::memory_order_relaxed);
       }
@@ -204,12 +204,10 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
   std::size_t first = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const FrictionLaw law = laws_[b].in_step(start, dt, [&] { return "'" + bodies_[b]->name() + "'"; });
-    const int count = static_cast<int>(samples_[b].size());
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-    for (int s = 0; s < count; ++s) {
+    for_all("implicit: contact with tools", settings_.threads, static_cast<int>(samples_[b].size()), [&](int s) {
       touches_[first + s] =
           make(static_cast<int>(b), s, nodes, law, dt, found_[first + s], found_places_[first + s]) ? 1 : 0;
-    }
+    });
     first += samples_[b].size();
   }
   // By block, and those of free bodies, which share their bodies' velocities, at the end.

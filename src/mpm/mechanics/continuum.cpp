@@ -8,6 +8,8 @@
 
 #include "field_passes.hpp"
 #include "increments.hpp"
+#include "mpm/particles/for_particles.hpp"
+#include "mpm/ranks/of_all.hpp"
 
 namespace mpm {
 namespace {
@@ -38,9 +40,10 @@ class Continuum final : public Mechanics {
     turn_ = (turn_ + 1) % settings_.transfer.every;
     if (settings_.transfer.mixes()) increments_.make_room(passes_);
     passes_.each_field([&](Field& field) { look_at(field); });
-    passes_.spread({&Grid::mass, &Grid::momentum}, [&](Field& field, const Block& block) {
-      kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
-    });
+    passes_.spread(
+        "particles: momentum to the grid", {&Grid::mass, &Grid::momentum}, [&](Field& field, const Block& block) {
+          kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
+        });
     find_velocities();
   }
 
@@ -51,28 +54,28 @@ class Continuum final : public Mechanics {
       return;
     }
     passes_.take_for_strain(context.dt);
-    passes_.spread({&Grid::force}, [&](Field& field, const Block& block) {
+    passes_.spread("particles: strain, stress and force", {&Grid::force}, [&](Field& field, const Block& block) {
       strain(field, block, {dt, settings_.gradient_terms, true});
     });
   }
 
   void internal_force(StepContext&) override {
     if (settings_.average_dilatation) find_means(true);
-    passes_.spread({&Grid::force}, [&](Field& field, const Block& block) {
+    passes_.spread("particles: force", {&Grid::force}, [&](Field& field, const Block& block) {
       const double* pressure = settings_.average_dilatation ? field.mean.data() : nullptr;
       kernels_.force(field.view, block, field.sets(), field.count(), pressure);
     });
   }
 
   void clear_forces(StepContext&) override {
-    passes_.each_field([&](Field& field) { passes_.clear(field.grid, field.grid.force); });
+    passes_.each_field([&](Field& field) { passes_.clear("grid: momentum", field.grid, field.grid.force); });
   }
 
   void update_momentum(StepContext& context) override {
     double gravity[3] = {};
     for (int k = 0; k < layout_.dim(); ++k) gravity[k] = settings_.gravity[layout_.axis(k)];
     for (Field& field : passes_.fields()) {
-      passes_.each_node_range(field.grid, [&](int first, int last) {
+      passes_.each_node_range("grid: momentum", field.grid, [&](int first, int last) {
         kernels_.nodal_update(field.view, first, last, context.dt, gravity);
       });
     }
@@ -107,7 +110,7 @@ class Continuum final : public Mechanics {
       strain_by_mean(context.dt, dt);
     } else {
       passes_.take_for_strain(context.dt);
-      passes_.each_block([&](Field& field, const Block& block) {
+      passes_.each_block("particles: strain, stress and place", [&](Field& field, const Block& block) {
         strain(field, block, {dt, settings_.gradient_terms, false, nullptr});
       });
     }
@@ -118,12 +121,10 @@ class Continuum final : public Mechanics {
   std::optional<ParticleRef> failed() const override { return failed_; }
   FastestParticle fastest(int set, double cell) const override {
     const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set], kernels_);
-    const int count = sets_[set].awake(), groups = (count + kSurveyed - 1) / kSurveyed;
-    std::vector<mpm_kernel::Fastest> of_group(groups);
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
-    for (int g = 0; g < groups; ++g) {
-      of_group[g] = view.law_kernels->survey(view, g * kSurveyed, std::min(count, (g + 1) * kSurveyed), cell);
-    }
+    std::vector<mpm_kernel::Fastest> of_group((sets_[set].awake() + kSurveyed - 1) / kSurveyed);
+    for_particle_groups(
+        "particles: wave speed", sets_[set], kSurveyed, settings_.threads,
+        [&](int first, int end, int g) { of_group[g] = view.law_kernels->survey(view, first, end, cell); });
     FastestParticle found;
     for (const mpm_kernel::Fastest& one : of_group) {
       if (!(one.rate <= found.rate) && !std::isnan(found.rate)) found = {one.rate, one.particle};
@@ -174,7 +175,7 @@ class Continuum final : public Mechanics {
 
   void find_velocities() {
     for (Field& field : passes_.fields()) {
-      passes_.each_node_range(field.grid,
+      passes_.each_node_range("grid: velocity", field.grid,
                               [&](int first, int last) { kernels_.nodal_velocity(field.view, first, last); });
     }
   }
@@ -207,9 +208,9 @@ class Continuum final : public Mechanics {
       parts.fetch_add(moved.parts, std::memory_order_relaxed);
     };
     if (regather) {
-      passes_.spread({&Grid::momentum}, move_block);
+      passes_.spread("particles: velocity, momentum to the grid", {&Grid::momentum}, move_block);
     } else {
-      passes_.each_block(move_block);
+      passes_.each_block("particles: velocity and place", move_block);
     }
     const std::uint64_t generation =
         passes_.fields().front().grid.blocks.generation();  // generation of all: they are rebuilt together
@@ -266,17 +267,18 @@ class Continuum final : public Mechanics {
   void strain_by_mean(double step, double dt) {
     passes_.take_for_strain(step);
     find_means(false);
-    passes_.each_block([&](Field& field, const Block& block) {
+    passes_.each_block("particles: strain, stress and place", [&](Field& field, const Block& block) {
       strain(field, block, {dt, settings_.gradient_terms, false, field.mean.data()});
     });
   }
 
   // Finds the mass-weighted mean of the particles' dilatation or mean stress at the nodes of every field.
   void find_means(bool of_stress) {
+    constexpr const char* kMeans = "particles: means to the grid";
     passes_.each_field([&](Field& field) {
       field.mean.resize(field.grid.blocks.size());
-      passes_.clear(field.grid, field.mean);
-      each_owner(field.grid, settings_.threads, [&](const Block& block) {
+      passes_.clear(kMeans, field.grid, field.mean);
+      each_owner(kMeans, field.grid, settings_.threads, [&](const Block& block) {
         kernels_.spread_mean[of_stress](field.view, block, field.sets(), field.count(), field.mean.data());
       });
     });
@@ -284,8 +286,8 @@ class Continuum final : public Mechanics {
     for (std::size_t f = 0; f < passes_.fields().size(); ++f) {
       Field& field = passes_.fields()[f];
       if (patches) settings_.choice->give(patches->mean, static_cast<int>(f), field.mean);
-      if (settings_.halo != nullptr) settings_.halo->add(static_cast<int>(f), field.mean);
-      passes_.each_carrying(field.grid,
+      add_of_others(settings_.halo, static_cast<int>(f), field.mean);
+      passes_.each_carrying(kMeans, field.grid,
                             [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
       if (patches) settings_.choice->take(field.mean, static_cast<int>(f), patches->mean);
     }
@@ -298,7 +300,7 @@ class Continuum final : public Mechanics {
     if (kernels_.outgrown == nullptr || sorts) return;
     std::atomic<bool> outgrown{false};
     passes_.each_field([&](Field& field) { look_at(field); });
-    passes_.each_block([&](Field& field, const Block& block) {
+    passes_.each_block("particles: reach of domains", [&](Field& field, const Block& block) {
       const bool one = kernels_.outgrown(field.view, block, field.sets(), field.count());
       if (one) outgrown.store(true, std::memory_order_relaxed);
     });
@@ -306,11 +308,10 @@ class Continuum final : public Mechanics {
   }
 
   void note_failure(ParticleRef particle) {
-#pragma omp critical(mpm_failure)
-    {
+    in_turn([&] {
       const auto id = [this](ParticleRef p) { return sets_[p.set].id[p.index]; };
       if (!failed_ || id(particle) < id(*failed_)) failed_ = particle;
-    }
+    });
   }
 
   static constexpr int kSurveyed = 4096;  ///< particles that a thread surveys in one go

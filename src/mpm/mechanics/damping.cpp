@@ -1,11 +1,11 @@
 #include "mpm/mechanics/damping.hpp"
 
 #include <fmt/core.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/particles/sum_particles.hpp"
 
 namespace mpm {
@@ -89,20 +89,20 @@ void DampingControl::each_particle(double t, double alpha, const GridLayout& lay
   fault_.clear();
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     const ParticleSet& set = sets_[s];
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int p = 0; p < set.size(); ++p) {
-      const int thread = omp_get_thread_num();
-      Vec3 place = Vec3::Zero();
-      for (int k = 0; k < layout.dim(); ++k) place[layout.axis(k)] = set.x[k][p];
-      try {
-        visit(thread, s, p, sample(thread, t, alpha, &place));
-      } catch (const Error& error) {
-        fault_.note(thread, set.id[p], [&] {
-          return fmt::format("method.damping at particle {} of '{}' at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s: {}",
-                             set.id[p], set.name, place.x(), place.y(), place.z(), t, error.what());
-        });
+    for_parts("particles: rates of damping", threads_, set.size(), [&](int first, int end, int thread) {
+      for (int p = first; p < end; ++p) {
+        Vec3 place = Vec3::Zero();
+        for (int k = 0; k < layout.dim(); ++k) place[layout.axis(k)] = set.x[k][p];
+        try {
+          visit(thread, s, p, sample(thread, t, alpha, &place));
+        } catch (const Error& error) {
+          fault_.note(thread, set.id[p], [&] {
+            return fmt::format("method.damping at particle {} of '{}' at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s: {}",
+                               set.id[p], set.name, place.x(), place.y(), place.z(), t, error.what());
+          });
+        }
       }
-    }
+    });
   }
   fault_.check<DampingError>();
 }
@@ -158,8 +158,7 @@ void DampingControl::forces_gathered(StepContext& context) {
 Vec3 DampingControl::damp_nodes(Grid& grid, double dt) {
   const int nodes = grid.layout.nodes_per_block(), dim = grid.layout.dim();
   block_sums_.resize(grid.blocks.size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (int b = 0; b < grid.blocks.size(); ++b) {
+  for_blocks("grid: damping", grid, threads_, [&](int b) {
     block_sums_[b] = Vec3::Zero();
     for (int k = 0; k < dim; ++k) {
       const double* momentum = grid.momentum.block(b) + k * nodes;
@@ -172,7 +171,7 @@ Vec3 DampingControl::damp_nodes(Grid& grid, double dt) {
       }
       block_sums_[b][grid.layout.axis(k)] = grid.counts(b) ? total : 0.0;
     }
-  }
+  });
   Vec3 given = Vec3::Zero();
   for (const Vec3& sum : block_sums_) given += sum * dt;
   return given;
@@ -183,7 +182,7 @@ void DampingControl::end_step(const StepContext& context, const Damped& damped) 
   if (!definition().feedback) return;
   const FeedbackDefinition& feedback = *definition().feedback;
   const double energy = feedback.of == FeedbackDefinition::Of::grid ? damped.grid_energy : damped.particle_energy;
-  alpha_ = std::min(alpha_ + context.dt * growth(of_all_ranks(energy), context.start), feedback.limit);
+  alpha_ = std::min(alpha_ + context.dt * growth(sum_of_all(ranks_, energy), context.start), feedback.limit);
 }
 
 double DampingControl::growth(double energy, double t) const {
@@ -195,7 +194,7 @@ double DampingControl::growth(double energy, double t) const {
 }
 
 void DampingControl::limit_step(const PeriodAhead& period, StepLimit& limit) const {
-  const double energy = needs_energy() ? of_all_ranks(kinetic_energy(sets_, threads_)) : 0.0;
+  const double energy = needs_energy() ? sum_of_all(ranks_, kinetic_energy(sets_, threads_)) : 0.0;
   const double rate = largest_rate(period.start, period.length, energy, fields_.front()->layout);
   StepLimit own;
   own.by = this;

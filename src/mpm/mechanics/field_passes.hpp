@@ -2,7 +2,8 @@
 //
 // What spreads to nodes begins with zero and ends with the sums of everybody who gives to them: of particles that
 // choose a field at every node (grid/node_choice.hpp), and of other ranks (ranks/halo.hpp). Over ranks the blocks at
-// their borders come first, and the others while what the first have given travels. Private to this folder.
+// their borders come first, and the others while what the first have given travels. `name` is that of the pass in a
+// profile. Private to this folder.
 #pragma once
 
 #include <algorithm>
@@ -59,20 +60,21 @@ class FieldPasses {
 
   /// visit(field, block) for every block with particles: for what writes to no node.
   template <class Visit>
-  void each_block(Visit&& visit) {
+  void each_block(const char* name, Visit&& visit) {
     each_field([&](Field& field) {
-      each_owner_at_once(field.grid, threads_, [&](const mpm_kernel::BlockView& block) { visit(field, block); });
+      each_owner_at_once(name, field.grid, threads_, [&](const mpm_kernel::BlockView& block) { visit(field, block); });
     });
   }
 
   /// visit(field, block), at a node a colour after the other: for what adds to these fields of nodes, two at most.
   template <class Visit>
-  void spread(std::initializer_list<NodalField Grid::*> to, Visit&& visit) {
+  void spread(const char* name, std::initializer_list<NodalField Grid::*> to, Visit&& visit) {
+    const TimeProfile::Part part(name);
     const auto by_colour = [&](Field& field, const BlockShares& owners) {
-      owners.by_colour(threads_, [&](int owner) { visit(field, view_of(field.grid, owner)); });
+      owners.by_colour(name, threads_, [&](int owner) { visit(field, view_of(field.grid, owner)); });
     };
     each_field([&](Field& field) {
-      each_node_range(field.grid, [&](int first, int last) {
+      each_node_range(name, field.grid, [&](int first, int last) {
         for (NodalField Grid::*const nodes : to) clear(field.grid.*nodes, first, last);
       });
     });
@@ -107,19 +109,18 @@ class FieldPasses {
 
   /// pass(first block, last block), the blocks in use shared out among the threads.
   template <class Pass>
-  void each_node_range(const Grid& grid, Pass&& pass) const {
+  void each_node_range(const char* name, const Grid& grid, Pass&& pass) const {
     constexpr int kBlocks = 16;           // a range
     constexpr int kRangesPerThread = 64;  // fewer do not pay for the start of a thread
     const int blocks = grid.blocks.size(), ranges = (blocks + kBlocks - 1) / kBlocks;
     const int threads = std::clamp(ranges / kRangesPerThread, 1, threads_);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int r = 0; r < ranges; ++r) pass(r * kBlocks, std::min(blocks, (r + 1) * kBlocks));
+    for_groups(name, threads, blocks, kBlocks, [&](int first, int last, int) { pass(first, last); });
   }
 
   /// visit(block, node, 1 / mass): zero where no particle is.
   template <class Visit>
-  void each_carrying(const Grid& grid, Visit&& visit) const {
-    each_node_range(grid, [&](int first, int last) {
+  void each_carrying(const char* name, const Grid& grid, Visit&& visit) const {
+    each_node_range(name, grid, [&](int first, int last) {
       for (int b = first; b < last; ++b) {
         for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
           visit(b, n, grid.carries(b, n) ? 1.0 / grid.mass.at(b, 0, n) : 0.0);
@@ -128,8 +129,8 @@ class FieldPasses {
     });
   }
 
-  void clear(const Grid& grid, NodalField& nodes) const {
-    each_node_range(grid, [&](int first, int last) { clear(nodes, first, last); });
+  void clear(const char* name, const Grid& grid, NodalField& nodes) const {
+    each_node_range(name, grid, [&](int first, int last) { clear(nodes, first, last); });
   }
 
  private:

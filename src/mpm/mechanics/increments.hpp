@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "field_passes.hpp"
-#include "mpm/step/chunk_sums.hpp"
+#include "mpm/loop/chunk_sums.hpp"
 #include "mpm/step/transfer.hpp"
 
 namespace mpm {
@@ -41,7 +41,7 @@ class Increments {
       Grid& grid = field.grid;
       grid.increment.resize(grid.blocks.size());
       const NodalField& velocity = grid.velocity;
-      passes.each_carrying(grid, [&](int b, int n, double inverse_mass) {
+      passes.each_carrying("grid: increments", grid, [&](int b, int n, double inverse_mass) {
         for (int k = 0; k < grid.layout.dim(); ++k) {
           const double start = grid.momentum.at(b, k, n) * inverse_mass;
           grid.increment.at(b, k, n) = from_start ? start : velocity.at(b, k, n);
@@ -54,14 +54,15 @@ class Increments {
   void find(FieldPasses<T>& passes, const mpm_kernel::KernelTable<T>& kernels) {
     if (auto& patches = passes.patches()) patches->grid.increment.resize(patches->grid.blocks.size());
     passes.take(&Grid::increment);
-    passes.spread({&Grid::momentum}, [&](Field& field, const mpm_kernel::BlockView& block) {
-      Grid& grid = field.grid;
-      kernels.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
-    });
+    passes.spread(
+        "particles: increments to the grid", {&Grid::momentum}, [&](Field& field, const mpm_kernel::BlockView& block) {
+          Grid& grid = field.grid;
+          kernels.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
+        });
     const double part = std::exchange(part_, 1.0);  // the next one is found from this part
     for (Field& field : passes.fields()) {
       Grid& grid = field.grid;
-      passes.each_carrying(grid, [&](int b, int n, double inverse_mass) {
+      passes.each_carrying("grid: increments", grid, [&](int b, int n, double inverse_mass) {
         for (int k = 0; k < grid.layout.dim(); ++k) {
           double& increment = grid.increment.at(b, k, n);
           increment = part * (increment - grid.momentum.at(b, k, n) * inverse_mass);
@@ -75,7 +76,7 @@ class Increments {
     for (Field& field : passes.fields()) {
       Grid& grid = field.grid;
       const std::ptrdiff_t count = grid.layout.dim() * grid.layout.nodes_per_block();
-      passes.each_node_range(grid, [&](int first, int last) {
+      passes.each_node_range("grid: increments", grid, [&](int first, int last) {
         const double* from = grid.increment.block(first);
         double* sum = (grid.*to).block(first);
         for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) sum[i] += from[i] / over;
@@ -92,7 +93,7 @@ class Increments {
     for (const Field& field : passes.fields()) {
       const Grid& grid = field.grid;
       const int nodes = grid.layout.nodes_per_block(), numbers = grid.layout.dim() * nodes;
-      all += works_.over(grid.blocks.size(), threads_, [&](std::size_t block, double& work) {
+      all += works_.over("grid: increments", grid.blocks.size(), threads_, [&](std::size_t block, double& work) {
         const int b = static_cast<int>(block);
         if (!grid.counts(b)) return;
         const double *mass = grid.mass.block(b), *increment = grid.increment.block(b);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "mpm/loop/loop.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
 #include "mpm/shape/ring.hpp"
@@ -95,11 +96,9 @@ class NodalVolumeSurvey final : public VolumeSurvey {
   }
 
   void fill(const Grid& grid, const SurveyWants& wants) {
-    const int owners = grid.blocks.owners();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int o = 0; o < owners; ++o) {
+    for_all("particles: volumes and gradients", threads_, grid.blocks.owners(), [&](int o) {
       if (giving_[o] != 0) fill_owner(grid.first_owner + o, wants);
-    }
+    });
     if (choice_ == nullptr) return;
     for (int patch = 0; patch < choice_->patches(); ++patch) fill_owner(choice_->grid().first_owner + patch, wants);
   }

@@ -1,11 +1,11 @@
 #include "mpm/mechanics/particle_loads.hpp"
 
 #include <fmt/core.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <string>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/mechanics/first_fault.hpp"
 
 namespace mpm {
@@ -110,16 +110,13 @@ class ParticleLoads final : public Stage {
       const ParticleSet& set = sets_[s];
       const int groups = (set.size() + kGroup - 1) / kGroup;
       make_room(s, groups);
-#pragma omp parallel num_threads(threads_)
-      {
-        const int thread = omp_get_thread_num();
-#pragma omp for schedule(static)
-        for (int g = 0; g < groups; ++g) {
+      for_parts("particles: loads", threads_, groups, [&](int first, int last, int thread) {
+        for (int g = first; g < last; ++g) {
           sums_[g] = nothing();
           const int end = std::min(set.size(), (g + 1) * kGroup);
           for (int p = g * kGroup; p < end; ++p) at_particle(context, s, p, thread, sums_[g]);
         }
-      }
+      });
       for (int g = 0; g < groups; ++g) {
         for (int kind = 0; kind < kKinds; ++kind) impulse[kind] += sums_[g][kind] * context.dt;
       }
@@ -202,10 +199,9 @@ class ParticleLoads final : public Stage {
 
   void add(const NodalField& from, NodalField& to, const Grid& grid) const {
     const int count = dim_ * grid.layout.nodes_per_block();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < grid.blocks.size(); ++b) {
+    for_blocks("grid: loads", grid, threads_, [&](int b) {
       for (int n = 0; n < count; ++n) to.block(b)[n] += from.block(b)[n];
-    }
+    });
   }
 
   std::array<std::unique_ptr<ScalarTransfer>, kSpreads> transfers_;  ///< by spread

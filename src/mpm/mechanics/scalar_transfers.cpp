@@ -2,10 +2,15 @@
 
 #include <algorithm>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
+#include "mpm/ranks/of_all.hpp"
 
 namespace mpm {
 namespace {
+
+constexpr const char *kToGrid = "transfer: particles to nodes", *kToParticles = "transfer: nodes to particles",
+                     *kDiffusion = "transfer: diffusion";
 
 /// T is the precision of the particles.
 template <class T>
@@ -54,16 +59,14 @@ class ScalarTransferOf final : public ScalarTransfer {
     give_own(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
       kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), sink.data());
     });
-    if (halo_ != nullptr && !chosen_from(field)) halo_->add(field, to);  // else diffuse_chosen() has more to give
+    if (!chosen_from(field)) add_of_others(halo_, field, to);  // else diffuse_chosen() has more to give
   }
 
   void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
                       std::vector<NodalField>& to) override {
     if (choice_ == nullptr) return;
     if (choice_->patches() > 0) diffuse_in_patches(conducts, from, to);
-    for (const int field : choice_->chosen()) {
-      if (halo_ != nullptr) halo_->add(field, to[field]);
-    }
+    for (const int field : choice_->chosen()) add_of_others(halo_, field, to[field]);
   }
 
  private:
@@ -80,7 +83,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     for (const int field : choice_->chosen()) choice_->take(from[field], field, source);
     look_at(patches);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(conducts[s].begin(), conducts[s].end(), arrays_[s].from);
-    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) {
+    each_owner_at_once(kDiffusion, patches, threads_, [&](const mpm_kernel::BlockView& block) {
       kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), source.block(0), sink.data());
     });
     for (const int field : choice_->chosen()) choice_->give(sink, field, to[field]);
@@ -107,7 +110,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     Grid& grid = *fields_[field];
     look_at(grid);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
-    each_owner_at_once(grid, threads_, [&](const mpm_kernel::BlockView& block) {
+    each_owner_at_once(kToParticles, grid, threads_, [&](const mpm_kernel::BlockView& block) {
       if (only == nullptr || (*only)[grid.blocks.owner_block(block.owner)] != 0) pass(block, from);
     });
     if (!chosen(field)) return;
@@ -127,7 +130,7 @@ class ScalarTransferOf final : public ScalarTransfer {
         arrays_[s].to[k] = sets_[s].field == field ? to[s][k] : beside_[s][k].data();
       }
     }
-    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, own); });
+    each_owner_at_once(kToParticles, patches, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, own); });
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       const ParticleSet& set = sets_[s];
       for (int k = 0; k < 3 && set.field != field; ++k) {
@@ -154,18 +157,16 @@ class ScalarTransferOf final : public ScalarTransfer {
     Grid& grid = *fields_[field];
     look_at(grid);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
-    const int blocks = grid.blocks.size();
-    to.resize(blocks);
+    to.resize(grid.blocks.size());
     if (only != nullptr) {
       find_givers(grid, *only, giving_);
       find_taking(grid);
     }
     const std::ptrdiff_t numbers = static_cast<std::ptrdiff_t>(to.components()) * grid.layout.nodes_per_block();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < blocks; ++b) {
+    for_blocks(kToGrid, grid, threads_, [&](int b) {
       if (only == nullptr || taking_[b] != 0 || (*only)[b] != 0) std::fill_n(to.block(b), numbers, 0.0);
-    }
-    each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
+    });
+    each_owner(kToGrid, grid, threads_, [&](const mpm_kernel::BlockView& block) {
       if (only == nullptr || giving_[block.owner] != 0) pass(block, to);
     });
   }
@@ -174,7 +175,7 @@ class ScalarTransferOf final : public ScalarTransfer {
   void each_giving(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
     give_own(field, of, to, only, pass);
     if (chosen(field)) give_of_patches(field, of, to, only, pass);
-    if (halo_ != nullptr) halo_->add(field, to);
+    add_of_others(halo_, field, to);
   }
 
   template <class Pass>
@@ -187,7 +188,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     look_at(patches);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
     if (only != nullptr) choice_->find_givers(field, *only, giving_);
-    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) {
+    each_owner_at_once(kToGrid, patches, threads_, [&](const mpm_kernel::BlockView& block) {
       if (only == nullptr || giving_[block.owner] != 0) pass(block, own);
     });
     choice_->give(own, field, to);

@@ -245,13 +245,13 @@ void StressAverage::average(const Grid& grid, int field, Cells& cells) {
   find_cells(grid, cells);
   of_owner_.assign(grid.blocks.owners(), 0.0);
   // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
-  grid.shares.by_colour(threads_, [&](int owner) {
+  grid.shares.by_colour("particles: stress to cells", threads_, [&](int owner) {
     each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
       gather<Geometry, decltype(scalar)>(s, law, before, grid, owner, cells);
     });
   });
   if (halo_ != nullptr) exchange(grid, field, cells);
-  grid.shares.at_once(threads_, [&](int owner) {
+  grid.shares.at_once("cells: stress to particles", threads_, [&](int owner) {
     each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
       of_owner_[owner] += share<Geometry, decltype(scalar)>(s, law, before, grid, owner, cells);
     });

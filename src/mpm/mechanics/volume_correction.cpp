@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/for_particles.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
@@ -49,9 +51,8 @@ void VolumeCorrection::find_volumes() {
     PaddedArray<double>& volume = numbers_[s].volume;
     const double start = 1.0 / body.density();
     if (body.liquid()) continue;
-    const int count = body.set->awake();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int p = 0; p < count; ++p) volume[p] = start * determinant(Geometry::load_matrix(body.set->f, p));
+    for_particles("volume correction: volumes", *body.set, threads_,
+                  [&](int p) { volume[p] = start * determinant(Geometry::load_matrix(body.set->f, p)); });
   }
 }
 
@@ -92,8 +93,7 @@ void VolumeCorrection::find_fullness(const Fields& fields) {
   for (int f = 0; f < count; ++f) {
     const BlockTable& blocks = fields[f]->blocks;
     fullness_[f].resize(blocks.size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < blocks.size(); ++b) {
+    for_blocks("volume correction: fullness of nodes", *fields[f], threads_, [&](int b) {
       double* held = fullness_[f].block(b);
       std::copy_n(volume_[f].block(b), nodes, held);
       for (int g = 0; g < count; ++g) {
@@ -104,7 +104,7 @@ void VolumeCorrection::find_fullness(const Fields& fields) {
         const double room = share(*fields[f], fields[f]->layout.node(blocks.block(b), n));
         held[n] = room > kLeastShare ? held[n] / (room * cell_) : 1.0;
       }
-    }
+    });
   }
 }
 
@@ -124,10 +124,8 @@ void VolumeCorrection::gather(Fields& fields) {
                       fluids_take([](Numbers& of, auto& to) { to[0] = of.fullness.data(); }));
   }
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    double* full = fullness_[f].data();
-    const int size = static_cast<int>(fullness_[f].size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int i = 0; i < size; ++i) full[i] = full[i] < kFull ? 0.0 : 1.0;
+    for_all("volume correction: fullness of nodes", threads_, static_cast<int>(fullness_[f].size()),
+            [full = fullness_[f].data()](int i) { full[i] = full[i] < kFull ? 0.0 : 1.0; });
     transfer_->gather(static_cast<int>(f), fullness_[f],
                       fluids_take([](Numbers& of, auto& to) { to[0] = of.full.data(); }));
   }
@@ -135,23 +133,20 @@ void VolumeCorrection::gather(Fields& fields) {
     for (std::size_t f = 0; f < fields.size(); ++f) {
       const Grid& grid = *fields[f];
       one_.resize(grid.blocks.size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
-      for (int b = 0; b < grid.blocks.size(); ++b) {
-        std::copy_n(grid.velocity.block(b) + c * nodes, nodes, one_.block(b));
-      }
+      for_blocks("volume correction: slopes of velocity", grid, threads_,
+                 [&](int b) { std::copy_n(grid.velocity.block(b) + c * nodes, nodes, one_.block(b)); });
       transfer_->gradient(static_cast<int>(f), one_, fluids_take([&](Numbers& of, auto& to) {
                             for (int k = 0; k < dim; ++k) to[k] = of.slope[k].data();
                           }));
     }
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
       Numbers& of = numbers_[s];
-      const int count = bodies_[s].liquid() ? bodies_[s].set->awake() : 0;
-#pragma omp parallel for schedule(static) num_threads(threads_)
-      for (int p = 0; p < count; ++p) {
+      if (!bodies_[s].liquid()) continue;
+      for_particles("volume correction: slopes of velocity", *bodies_[s].set, threads_, [&](int p) {
         double sum = c == 0 ? 0.0 : of.squares[p];
         for (int k = 0; k < dim; ++k) sum += of.slope[k][p] * of.slope[k][p];
         of.squares[p] = sum;
-      }
+      });
     }
   }
 }
@@ -159,7 +154,7 @@ void VolumeCorrection::gather(Fields& fields) {
 template <class Geometry, class Liquid>
 double VolumeCorrection::correct(const Liquid& law, const Body& body, const Numbers& of) {
   ParticleSet& set = *body.set;
-  return sums_.over(static_cast<std::size_t>(set.awake()), threads_, [&](std::size_t i, double& lost) {
+  return sums_.over("volume correction: dilatation", set.awake(), threads_, [&](std::size_t i, double& lost) {
     const int p = static_cast<int>(i);
     const auto f = Geometry::load_matrix(set.f, p);
     const double j = determinant(f), excess = std::log(j * of.fullness[p]);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mpm/loop/loop.hpp"
+
 namespace mpm {
 namespace {
 
@@ -35,8 +37,7 @@ void permute(ParticleSet& set, const std::uint32_t* places, const ParticleOrder&
     other.resize(n, room);
     const auto* from = values.data();
     auto* to = other.data();
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::size_t i = 0; i < n; ++i) to[i] = from[places[i]];
+    for_all("particles: into their order", threads, n, [from, to, places](std::size_t i) { to[i] = from[places[i]]; });
     if (all) {
       values.swap(other);
       return;
@@ -44,8 +45,7 @@ void permute(ParticleSet& set, const std::uint32_t* places, const ParticleOrder&
     values.extend(std::max(size, values.size()), room + order.asleep());
     auto* own = values.data();
     std::copy_n(own + moved.from, moved.count, own + moved.to);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::size_t i = 0; i < n; ++i) own[i] = to[i];
+    for_all("particles: into their order", threads, n, [own, to](std::size_t i) { own[i] = to[i]; });
     values.resize(size);
   };
   set.each_scalar(reorder);

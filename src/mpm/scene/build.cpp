@@ -12,6 +12,7 @@
 
 #include "filling.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/scene_warnings.hpp"
@@ -145,10 +146,8 @@ std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody
     if (!chosen.region->contains(body.positions[p])) continue;
     particles.push_back(body.part ? body.part->numbers[p] : static_cast<std::uint32_t>(p));
   }
-  if (ranks != nullptr) {
-    particles = gather_list(*ranks, particles);
-    std::sort(particles.begin(), particles.end());
-  }
+  particles = list_of_all(ranks, std::move(particles));
+  std::sort(particles.begin(), particles.end());
   if (particles.empty()) {
     throw SceneError(fmt::format("{}: no particle of body '{}' has its centre in it; make it larger, or move it",
                                  chosen.where, body.name));

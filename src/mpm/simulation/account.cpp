@@ -6,6 +6,7 @@
 
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
 
@@ -29,16 +30,14 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
   of_groups.sums.resize(groups);
   of_groups.changes.resize(groups);
   of_groups.found_asleep.resize(groups);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (int g = 0; g < groups; ++g) {
-    const bool asleep = g * kGroup >= set.awake() && !set.rest_changes.empty();
+  for_groups("particles: account", threads, set.size(), kGroup, [&](int first, int end, int g) {
+    const bool asleep = first >= set.awake() && !set.rest_changes.empty();
     const std::uint32_t changes = asleep ? set.rest_changes[g] : 0;
-    if (asleep && of_groups.found_asleep[g] != 0 && of_groups.changes[g] == changes) continue;
+    if (asleep && of_groups.found_asleep[g] != 0 && of_groups.changes[g] == changes) return;
     of_groups.found_asleep[g] = asleep;
     of_groups.changes[g] = changes;
     MaterialTotals& sum = of_groups.sums[g] = {};
-    const int end = std::min(set.size(), (g + 1) * kGroup);
-    for (int p = g * kGroup; p < end; ++p) {
+    for (int p = first; p < end; ++p) {
       const ParticleTensors t = particle_tensors(set, geometry, p);
       const double mass = set.masses.empty() ? 1.0 : set.mass_of(p);  // equal masses are multiplied in the end
       double speed2 = 0.0, height = 0.0;
@@ -60,7 +59,7 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
       sum.carried += mass * std::sqrt(speed2);
       sum.min_j = std::min(sum.min_j, t.j);
     }
-  }
+  });
   MaterialTotals total;
   for (const MaterialTotals& part : of_groups.sums) total += part;
   for (double* by_mass : {&total.kinetic, &total.potential, &total.elastic, &total.plastic, &total.carried}) {
@@ -104,9 +103,9 @@ std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
 }  // namespace
 
 Vec3 Simulation::State::momentum() const {
-  Vec3 total = sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
-    return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p));
-  });
+  Vec3 total = sum_particles(
+      "particles: momentum", sets, threads, Vec3(Vec3::Zero()),
+      [&](const ParticleSet& set, int p) { return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p)); });
   if (over) over->add_up(total);
   return total;
 }
@@ -129,7 +128,7 @@ std::pair<std::size_t, std::size_t> Simulation::State::rows_of(std::uint64_t fir
 }
 
 double Simulation::State::from_first(double value) const {
-  return !over ? value : over->ranks().sum(over->ranks().first() ? value : 0.0);
+  return sum_of_all(ranks.get(), is_first(ranks.get()) ? value : 0.0);
 }
 
 Vec3 Simulation::State::impulse(const std::string& account) const {

@@ -57,13 +57,12 @@ void Simulation::State::see_courant(double dt, const StepLimit& found) {
 bool Simulation::State::step(double start, double dt, bool more) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{fields, dt, start};
-  context.profile = profile;
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg,
                                      &step_implicit};  // in the order of UpdateScheme
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
-  timed(profile, "modules: end of a step", [&] {
+  timed("modules: end of a step", [&] {
     for (Module* module : modules.list()) module->step_ended();
   });
   ++steps.steps;
@@ -88,7 +87,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
     });
   }
   if (now.sorts) {
-    timed(profile, "sorting of particles", [&] { sort(start + dt); });
+    timed("sorting of particles", [&] { sort(start + dt); });
   } else if (now.meets) {
     meet_again();
   }
@@ -96,6 +95,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
 }
 
 void Simulation::State::run_period() {
+  const TimeProfile::Use use(profile);
   // Implicit steps resolve motion, whose limit is its own.
   const double cfl = definition.method.update == UpdateScheme::implicit ? 1.0 : definition.time.cfl;
   const double begin = seconds_of(time);
@@ -105,9 +105,7 @@ void Simulation::State::run_period() {
   StepLimit seen = material_limit;
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
-  const auto timed_survey = [this] {
-    return timed(profile, "limit of the time step", [this] { return survey_material(); });
-  };
+  const auto timed_survey = [this] { return timed("limit of the time step", [this] { return survey_material(); }); };
   double part_begin = begin;  // start of those steps
   bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
@@ -136,7 +134,7 @@ void Simulation::State::run_period() {
     seen = now;
   }
   time += definition.time.sync;
-  timed(profile, "modules: sync point", [&] {
+  timed("modules: sync point", [&] {
     for (Module* module : modules.list()) module->at_sync(time);
   });
   previous_limit = material_limit;

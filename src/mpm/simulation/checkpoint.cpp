@@ -12,6 +12,7 @@
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/method_text.hpp"
 #include "ranks_archive.hpp"
 
@@ -124,9 +125,9 @@ std::string text_difference(const std::string& here, const std::string& there) {
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more) {
   Communicator* ranks = simulation.ranks();
-  const bool writes = ranks == nullptr || ranks->first();
-  const auto check = [&](std::string problem) {
-    if (ranks != nullptr) problem = first_text(*ranks, problem);
+  const bool writes = is_first(ranks);
+  const auto check = [&](const std::string& own) {
+    const std::string problem = text_of_all(ranks, own);
     if (!problem.empty()) throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, problem));
   };
   check(writes ? refused_output(path) : std::string());

@@ -4,6 +4,7 @@
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/transported_field.hpp"
 #include "shipped_modules.hpp"
@@ -147,7 +148,7 @@ void add_cracks(RunParts& parts) {
     parts.halo->add_everywhere(
         [chosen = made->chosen.get(), reach](const std::array<int, 3>& block) { return chosen->near(block, reach); });
   }
-  made->counts = parts.ranks == nullptr || parts.ranks->first();
+  made->counts = is_first(parts.ranks);
   made->motion = std::make_unique<CrackMotion>(made->cracks, *made->chosen, parts.fields, asked.move, asked.prevent);
   try {
     made->tractions = std::make_unique<CrackTractions>(made->cracks, *made->chosen, parts.fields, asked.laws,

@@ -20,6 +20,7 @@
 
 #include "initial.hpp"
 #include "mpm/ranks/lists.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/run_parts.hpp"
 #include "particle_start.hpp"
 #include "state.hpp"
@@ -209,13 +210,9 @@ void Simulation::State::settle() {
       if (at_rest) {
         residual = {0.0, 0.0};
         for (const auto& grid : r.fields) add_unbalanced(*grid, r.total_mass * g, g, 0.5 * lightest, residual);
-        if (ranks) {
-          ranks->sum(&residual.mean, 1);
-          ranks->largest(&residual.most, 1);
-        }
+        residual = {sum_of_all(ranks.get(), residual.mean), largest_of_all(ranks.get(), residual.most)};
       }
-      double now = kinetic_energy(r.sets, r.threads);
-      if (ranks) ranks->sum(&now, 1);
+      const double now = sum_of_all(ranks.get(), kinetic_energy(r.sets, r.threads));
       at_rest = now < before;
       if (at_rest) stop(r.sets);
       before = at_rest ? 0.0 : now;
@@ -225,7 +222,7 @@ void Simulation::State::settle() {
       const double gained = std::sqrt(2.0 * now / r.total_mass) / g;
       if (steps_of_motion >= kCreepingSteps && gained < kOfCreep * wanted * moves_for) creeps = gained / moves_for;
       if (settling) settling({count + 1, residual.mean, wanted});
-      if (asked_to_stop && (ranks ? ranks->any(asked_to_stop()) : asked_to_stop())) {
+      if (asked_to_stop && any_of_all(ranks.get(), asked_to_stop())) {
         throw StoppedError(fmt::format("stopped while {} settled, after {} steps", names, count + 1));
       }
     }
@@ -251,7 +248,7 @@ void Simulation::State::settle() {
     const int work = std::visit([](const auto& law) { return law.kPlasticWork; }, laws[&set - sets.data()]);
     if (work >= 0) set.history[work].assign(set.history[work].size(), 0.0);  // dissipated since the start
   }
-  if (ranks) ranks->largest(&farthest, 1);
+  farthest = largest_of_all(ranks.get(), farthest);
   const std::string text = fmt::format(
       "geostatic start of {}: unbalanced force {:.2g} of the weight (asked: {:.2g}), at a node {:.2g} g at most, "
       "after {} steps of settling, moved by at most {:.3g} m",

@@ -13,6 +13,7 @@
 
 #include "initial.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "state.hpp"
 
@@ -155,10 +156,7 @@ std::vector<double> vertical_stresses(Communicator& ranks, const std::vector<Par
 double least_of(const std::vector<double>& values, Communicator* ranks) {
   double least = std::numeric_limits<double>::infinity();
   for (const double value : values) least = std::min(least, value);
-  if (ranks == nullptr) return least;
-  least = -least;
-  ranks->largest(&least, 1);
-  return -least;
+  return least_of_all(ranks, least);
 }
 
 /// Extent of the centres of a body's particles, on all ranks.
@@ -177,7 +175,7 @@ Extent extent_of(const DeformableBody& body, int family, Communicator* ranks) {
       ends[3 + axis] = std::max(ends[3 + axis], place[axis]);
     }
   }
-  if (ranks != nullptr) ranks->largest(ends.data(), static_cast<int>(ends.size()));
+  find_largest(ranks, ends.data(), static_cast<int>(ends.size()));
   return {body.name, family, {-ends[0], -ends[1], -ends[2]}, {ends[3], ends[4], ends[5]}};
 }
 

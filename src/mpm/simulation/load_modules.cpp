@@ -7,6 +7,7 @@
 
 #include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "shipped_modules.hpp"
 
@@ -57,10 +58,8 @@ ParticleLoadTerm make_term(const ParticleForceDefinition& load, const RunParts& 
     count += 1.0;
     mass += set.mass_of(p);
   }
-  if (parts.ranks != nullptr) {
-    parts.ranks->sum(&count, 1);
-    parts.ranks->sum(&mass, 1);
-  }
+  count = sum_of_all(parts.ranks, count);
+  mass = sum_of_all(parts.ranks, mass);
   if (set.masses.empty()) mass = set.mass * count;
   term.factor = 1.0 / mass;
   return term;
@@ -95,7 +94,7 @@ bool all_on_axis(const std::vector<std::uint32_t>& particles, const ParticleSet&
   const bool beside = std::any_of(particles.begin(), particles.end(), [&](std::uint32_t p) {
     return p < places.size() && places[p] >= 0 && set.x[0][places[p]] > touching;
   });
-  return !(parts.ranks == nullptr ? beside : parts.ranks->any(beside));
+  return !any_of_all(parts.ranks, beside);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -41,23 +42,18 @@ double reported(const Simulation& simulation, const MetricDefinition& metric) {
 /// Statistic of numbers of which each rank has some. `ranks`: null for a process that is alone. Not a number of none.
 double statistic(Statistic which, const double* begin, const double* end, Communicator* ranks) {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
-  const auto sum_of_all = [&](double own) { return ranks == nullptr ? own : ranks->sum(own); };
-  const auto most_of_all = [&](double own) {
-    if (ranks != nullptr) ranks->largest(&own, 1);
-    return own;
-  };
-  if (which == Statistic::sum) return sum_of_all(std::accumulate(begin, end, 0.0));
-  const double count = sum_of_all(static_cast<double>(end - begin));
+  if (which == Statistic::sum) return sum_of_all(ranks, std::accumulate(begin, end, 0.0));
+  const double count = sum_of_all(ranks, static_cast<double>(end - begin));
   if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
-  if (which == Statistic::min) return -most_of_all(begin == end ? kNone : -*std::min_element(begin, end));
-  if (which == Statistic::max) return most_of_all(begin == end ? kNone : *std::max_element(begin, end));
+  if (which == Statistic::min) return -largest_of_all(ranks, begin == end ? kNone : -*std::min_element(begin, end));
+  if (which == Statistic::max) return largest_of_all(ranks, begin == end ? kNone : *std::max_element(begin, end));
   double mean = 0.0;
   for (const double* it = begin; it != end; ++it) mean += *it;
-  mean = sum_of_all(mean) / count;
+  mean = sum_of_all(ranks, mean) / count;
   if (which == Statistic::mean) return mean;
   double squares = 0.0;
   for (const double* it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
-  return std::sqrt(sum_of_all(squares) / count);
+  return std::sqrt(sum_of_all(ranks, squares) / count);
 }
 
 /// Value by the metrics before it; not a number where one of them is none, or the result is not finite.

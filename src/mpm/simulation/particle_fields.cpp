@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/loop/loop.hpp"
 #include "particle_view.hpp"
 
 namespace mpm {
@@ -202,17 +203,15 @@ void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, i
       if (fields[k].field != nullptr) return fields[k].field->value(particle);
       return brought[k] == nullptr ? 0.0 : brought[k][particle.p];
     };
-#pragma omp parallel num_threads(threads)
-    {
+    for_parts("particles: fields for output", threads, view.set.size(), [&](int first, int end, int) {
       View particle{view};
-#pragma omp for schedule(static)
-      for (int p = 0; p < view.set.size(); ++p) {
+      for (int p = first; p < end; ++p) {
         const std::int64_t at = row(view, p);
         if (at < 0) continue;
         particle.look(p, needs);
         for (std::size_t k = 0; k < fields.size(); ++k) out[k][at] = static_cast<T>(value(k, particle));
       }
-    }
+    });
   }
 }
 

@@ -11,6 +11,7 @@
 #include "mpm/math/dimension.hpp"
 #include "mpm/particles/permute.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
@@ -228,10 +229,7 @@ double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks, boo
   for (const ParticleSet& set : sets) {
     if (set.size() > 0) least = std::min(least, whole ? set.least_whole_mass() : set.least_mass());
   }
-  if (ranks == nullptr) return least;
-  least = -least;
-  ranks->largest(&least, 1);
-  return -least;
+  return least_of_all(ranks, least);
 }
 
 // Not "= {}", which would keep the memory.

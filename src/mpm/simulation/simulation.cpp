@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -56,7 +57,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 const SimulationDefinition& Simulation::definition() const { return state_->definition; }
 int Simulation::threads() const { return state_->threads; }
 Communicator* Simulation::ranks() const { return state_->ranks.get(); }
-bool Simulation::on_any_rank(bool own) const { return state_->over ? state_->over->ranks().any(own) : own; }
+bool Simulation::on_any_rank(bool own) const { return any_of_all(state_->ranks.get(), own); }
 std::string Simulation::isa() const { return isa_name(state_->isa); }
 std::vector<std::string> Simulation::warnings() const { return state_->warnings; }
 std::vector<std::string> Simulation::notes() const { return state_->notes; }
@@ -88,7 +89,7 @@ void Simulation::State::check_together(const std::function<void()>& check) { agr
 void Simulation::State::sort(double now) {
   const std::vector<Module*>& list = modules.list();
   for (Module* module : list) module->before_sort();
-  const auto anywhere = [this](bool own) { return over ? over->ranks().any(own) : own; };
+  const auto anywhere = [this](bool own) { return any_of_all(ranks.get(), own); };
   auto outside = sort_particles();
   if (anywhere(outside.has_value())) {
     bool back = false;

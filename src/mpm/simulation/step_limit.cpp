@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "mpm/implicit/implicit_step.hpp"
+#include "mpm/loop/loop.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
@@ -49,12 +52,19 @@ template <class T>
 double fastest_of(const T* v, int count, int threads) {
   double most = 0.0;
   bool finite = true;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most) reduction(&& : finite)
-  for (int p = 0; p < count; ++p) {
-    const double speed = std::abs(static_cast<double>(v[p]));
-    most = std::max(most, speed);
-    finite = finite && std::isfinite(speed);
-  }
+  for_parts("particles: largest speed", threads, count, [&](int first, int end, int) {
+    double own = 0.0;
+    bool own_finite = true;
+    for (int p = first; p < end; ++p) {
+      const double speed = std::abs(static_cast<double>(v[p]));
+      own = std::max(own, speed);
+      own_finite = own_finite && std::isfinite(speed);
+    }
+    in_turn([&] {
+      most = std::max(most, own);
+      finite = finite && own_finite;
+    });
+  });
   return finite ? most : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -63,12 +73,14 @@ template <class T>
 double exceeded_by(double part, const T* v, int count, double largest, int threads) {
   constexpr int kBins = 64;
   if (!(largest > 0.0)) return largest;
-  std::array<int, kBins> found{};
-  int* bins = found.data();
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : bins[:kBins])
-  for (int p = 0; p < count; ++p) {
-    ++bins[std::min(kBins - 1, static_cast<int>(kBins * (std::abs(static_cast<double>(v[p])) / largest)))];
-  }
+  std::array<int, kBins> bins{};
+  for_parts("particles: spread of speeds", threads, count, [&](int first, int end, int) {
+    std::array<int, kBins> own{};
+    for (int p = first; p < end; ++p) {
+      ++own[std::min(kBins - 1, static_cast<int>(kBins * (std::abs(static_cast<double>(v[p])) / largest)))];
+    }
+    in_turn([&] { std::transform(own.begin(), own.end(), bins.begin(), bins.begin(), std::plus<>()); });
+  });
   int bin = kBins, above = 0;
   while (bin > 0 && above + bins[bin - 1] <= part * count) above += bins[--bin];
   return largest * bin / kBins;
@@ -81,7 +93,6 @@ double largest_shear(const ParticleSet& set, const GridLayout& layout, int threa
   for (int k = 0; k < Dim; ++k) {
     for (int c = 0; c < Dim; ++c) half[k][c] = set.half[k] * layout.cell(k) * layout.inverse_cell(c);
   }
-  const int count = set.awake();
   return set.f[0].visit([&](const auto& first) {
     using Array = std::decay_t<decltype(first)>;
     const Array* f[Dim * Dim];
@@ -91,15 +102,18 @@ double largest_shear(const ParticleSet& set, const GridLayout& layout, int threa
       });
     }
     double most = 1.0;  // 1 + shear^2
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : most)
-    for (int p = 0; p < count; ++p) {
-      double d[Dim][Dim];
-      for (int k = 0; k < Dim; ++k) {
-        for (int c = 0; c < Dim; ++c) d[k][c] = static_cast<double>((*f[c * Dim + k])[p]) * half[k][c];
+    for_parts("particles: shear of domains", threads, set.awake(), [&](int first, int end, int) {
+      double own = 1.0;
+      for (int p = first; p < end; ++p) {
+        double d[Dim][Dim];
+        for (int k = 0; k < Dim; ++k) {
+          for (int c = 0; c < Dim; ++c) d[k][c] = static_cast<double>((*f[c * Dim + k])[p]) * half[k][c];
+        }
+        const auto [edges, volume] = squared_edges_and_volume(d);
+        if (edges > own * volume) own = edges / volume;
       }
-      const auto [edges, volume] = squared_edges_and_volume(d);
-      if (edges > most * volume) most = edges / volume;
-    }
+      in_turn([&] { most = std::max(most, own); });
+    });
     return std::min(std::sqrt(most - 1.0), kDomainShear);
   });
 }
@@ -150,7 +164,7 @@ StepLimit Simulation::State::survey_material() const {
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     double shear = shear_of(definition, sets[s], layout(), threads);
-    if (over && traits_of(definition.method.shape).shear_limits_step) over->ranks().largest(&shear, 1);
+    if (traits_of(definition.method.shape).shear_limits_step) shear = largest_of_all(ranks.get(), shear);
     if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;

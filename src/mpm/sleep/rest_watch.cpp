@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mpm/loop/loop.hpp"
 #include "mpm/ranks/lists.hpp"
 
 namespace mpm {
@@ -112,9 +113,8 @@ void RestWatch::look_at(RestWatchEntry& entry, int owner, const std::vector<Part
 
 void RestWatch::look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads) {
   for (const auto& grid : fields) {
-    const int first = grid->first_owner, owners = grid->blocks.owners();
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int owner = first; owner < first + owners; ++owner) look_at(entries_[owner], owner, sets, now);
+    for_all("sleep: blocks at rest", threads, grid->blocks.owners(),
+            [&, first = grid->first_owner](int owner) { look_at(entries_[first + owner], first + owner, sets, now); });
   }
 }
 

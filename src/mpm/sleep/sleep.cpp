@@ -142,14 +142,13 @@ void Sleep::find_unrest(const Grid& grid, SleepBorder& border, double dt) {
   const int count = static_cast<int>(nodes.size());
   const double part = std::min(1.0, dt / definition_.after);
   unrest_.assign(nodes.size(), {});
-#pragma omp parallel for schedule(static) num_threads(parts_.threads) if (count > kWorthThreads)
-  for (int i = 0; i < count; ++i) {
-    if (!grid.carries(nodes[i].ref.block, nodes[i].ref.node)) continue;
+  for_all("sleep: unrest at the border", count > kWorthThreads ? parts_.threads : 1, count, [&](int i) {
+    if (!grid.carries(nodes[i].ref.block, nodes[i].ref.node)) return;
     const NodeRef ref = nodes[i].ref;
     Vec3 of_awake = nodal_vector(grid.force, layout_, ref);
     if (parts_.implicit) of_awake = grid.mass.at(ref.block, 0, ref.node) * (of_awake - parts_.gravity);
     unrest_[i] = SleepBorder::find_unrest(nodes[i], grid, of_awake, parts_.gravity, part);
-  }
+  });
   for (int i = 0; i < count; ++i) {
     const bool wave = unrest_[i].speed > definition_.wake;
     if (!wave && !(unrest_[i].lost > definition_.balance)) continue;
@@ -172,7 +171,7 @@ void Sleep::find_unrest(StepContext& context) {
 
 Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
   const std::vector<SleepBorder::Node>& nodes = border.nodes();
-  return sums_.over(nodes.size(), parts_.threads, [&](std::size_t i, Taken& taken) {
+  return sums_.over("sleep: nodes held", nodes.size(), parts_.threads, [&](std::size_t i, Taken& taken) {
     const NodeRef ref = nodes[i].ref;
     if (!grid.carries(ref.block, ref.node)) return;
     const double mass = grid.mass.at(ref.block, 0, ref.node);
@@ -188,26 +187,26 @@ Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
 Sleep::Taken Sleep::damp(Grid& grid, double dt) {
   const int nodes = layout_.nodes_per_block();
   const double slow = kSlowNodes * definition_.speed;
-  return sums_.over(
-      static_cast<std::size_t>(grid.blocks.size()) * nodes, parts_.threads, [&](std::size_t i, Taken& taken) {
-        const NodeRef ref{static_cast<int>(i / nodes), static_cast<int>(i % nodes)};
-        if (!grid.carries(ref.block, ref.node)) return;
-        const Vec3 velocity = nodal_vector(grid.velocity, layout_, ref), rate = nodal_vector(grid.force, layout_, ref);
-        const double speed = velocity.norm();
-        if (!(speed < slow)) return;
-        const double part = definition_.damping * (1.0 - speed / slow) * dt;
-        Vec3 change = Vec3::Zero();
-        for (int axis = 0; axis < 3; ++axis) {
-          const double most = std::abs(velocity[axis]);
-          change[axis] = -std::copysign(std::min(part * std::abs(rate[axis]), most), velocity[axis]);
-        }
-        add_nodal_vector(grid.velocity, layout_, ref, change);
-        add_nodal_vector(grid.force, layout_, ref, change / dt);
-        if (!grid.counts(ref.block)) return;
-        const double mass = grid.mass.at(ref.block, 0, ref.node);
-        taken.impulse += mass * change;
-        taken.energy -= mass * change.dot(velocity + 0.5 * change);
-      });
+  const std::size_t count = static_cast<std::size_t>(grid.blocks.size()) * nodes;
+  return sums_.over("sleep: slow nodes", count, parts_.threads, [&](std::size_t i, Taken& taken) {
+    const NodeRef ref{static_cast<int>(i / nodes), static_cast<int>(i % nodes)};
+    if (!grid.carries(ref.block, ref.node)) return;
+    const Vec3 velocity = nodal_vector(grid.velocity, layout_, ref), rate = nodal_vector(grid.force, layout_, ref);
+    const double speed = velocity.norm();
+    if (!(speed < slow)) return;
+    const double part = definition_.damping * (1.0 - speed / slow) * dt;
+    Vec3 change = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double most = std::abs(velocity[axis]);
+      change[axis] = -std::copysign(std::min(part * std::abs(rate[axis]), most), velocity[axis]);
+    }
+    add_nodal_vector(grid.velocity, layout_, ref, change);
+    add_nodal_vector(grid.force, layout_, ref, change / dt);
+    if (!grid.counts(ref.block)) return;
+    const double mass = grid.mass.at(ref.block, 0, ref.node);
+    taken.impulse += mass * change;
+    taken.energy -= mass * change.dot(velocity + 0.5 * change);
+  });
 }
 
 void Sleep::momentum_updated(StepContext& context) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "mpm/loop/profile.hpp"
+
 namespace mpm {
 namespace {
 
@@ -62,9 +64,8 @@ void Modules::put_in_order() {
 void Modules::act(Hook hook, StepContext& context) const {
   const auto h = static_cast<std::size_t>(hook);
   for (const Call& call : calls_[h]) {
-    const TimeProfile::Part part(context.profile, [&] {
-      return "module: " + (call.across != nullptr ? call.across->name() : call.in_field->name());
-    });
+    const TimeProfile::Part part(
+        [&] { return "module: " + (call.across != nullptr ? call.across->name() : call.in_field->name()); });
     if (call.across != nullptr) {
       (call.across->*kAtHook<StepContext>[h])(context);
     } else {

@@ -5,26 +5,26 @@ namespace {
 
 void gather_momentum(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   modules.act(Hook::step_begun, context);
-  timed(context.profile, "particles: momentum to the grid", [&] { mechanics.scatter_momentum(context); });
+  mechanics.scatter_momentum(context);
   modules.act(Hook::momentum_gathered, context);
 }
 
 // XPIC, FMPM: what particles adopt is the grid's velocity and increments of it.
 void filter(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   if (mechanics.increments() == 0) return;
-  timed(context.profile, "grid: increments", [&] { mechanics.begin_increments(context); });
+  mechanics.begin_increments(context);
   modules.act(Hook::velocity_found, context);
   for (int n = 0; n < mechanics.increments(); ++n) {
-    timed(context.profile, "grid: increments", [&] { mechanics.find_increment(context); });
+    mechanics.find_increment(context);
     modules.act(Hook::increment_found, context);
-    timed(context.profile, "grid: increments", [&] { mechanics.add_increment(context); });
+    mechanics.add_increment(context);
   }
 }
 
 // From the internal force to v^{n+1} and the acceleration on the grid, and to what particles adopt of them.
 void advance_grid(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   modules.act(Hook::forces_gathered, context);
-  timed(context.profile, "grid: momentum", [&] { mechanics.update_momentum(context); });
+  mechanics.update_momentum(context);
   modules.act(Hook::momentum_updated, context);
   filter(mechanics, modules, context);
   modules.act(Hook::grid_advanced, context);
@@ -32,9 +32,9 @@ void advance_grid(Mechanics& mechanics, const Modules& modules, StepContext& con
 
 // The particles' momentum of the end of the step, and the strain that it gives.
 void finish_with_strain(Mechanics& mechanics, const Modules& modules, StepContext& context, double dt) {
-  timed(context.profile, "particles: velocity, momentum to the grid", [&] { mechanics.move_and_regather(context); });
+  mechanics.move_and_regather(context);
   modules.act(Hook::before_strain, context);
-  timed(context.profile, "particles: strain, stress and place", [&] { mechanics.strain_and_place(context, dt); });
+  mechanics.strain_and_place(context, dt);
 }
 
 }  // namespace
@@ -43,16 +43,15 @@ void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context
   context.strain_at_start = 1.0;
   gather_momentum(mechanics, modules, context);
   modules.act(Hook::before_strain, context);
-  timed(context.profile, "particles: strain, stress and force",
-        [&] { mechanics.strain_and_force(context, context.dt); });
+  mechanics.strain_and_force(context, context.dt);
   advance_grid(mechanics, modules, context);
-  timed(context.profile, "particles: velocity and place", [&] { mechanics.move_particles(context); });
+  mechanics.move_particles(context);
 }
 
 void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   context.strain_at_start = 0.0;
   gather_momentum(mechanics, modules, context);
-  timed(context.profile, "particles: force", [&] { mechanics.internal_force(context); });
+  mechanics.internal_force(context);
   advance_grid(mechanics, modules, context);
   finish_with_strain(mechanics, modules, context, context.dt);
 }
@@ -61,8 +60,7 @@ void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& conte
   context.strain_at_start = 0.5;
   gather_momentum(mechanics, modules, context);
   modules.act(Hook::before_strain, context);
-  timed(context.profile, "particles: strain, stress and force",
-        [&] { mechanics.strain_and_force(context, 0.5 * context.dt); });
+  mechanics.strain_and_force(context, 0.5 * context.dt);
   advance_grid(mechanics, modules, context);
   finish_with_strain(mechanics, modules, context, 0.5 * context.dt);
 }
@@ -71,9 +69,9 @@ void step_implicit(Mechanics& mechanics, const Modules& modules, StepContext& co
   context.strain_at_start = 0.0;
   context.works_at_end = true;
   gather_momentum(mechanics, modules, context);
-  timed(context.profile, "grid: momentum", [&] { mechanics.clear_forces(context); });
+  mechanics.clear_forces(context);
   advance_grid(mechanics, modules, context);
-  timed(context.profile, "particles: velocity and place", [&] { mechanics.move_particles(context); });
+  mechanics.move_particles(context);
 }
 
 }  // namespace mpm

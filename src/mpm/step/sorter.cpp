@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "mpm/loop/loop.hpp"
+
 namespace mpm {
 
 // The few blocks that particles in sequence lie in, with a value each.
@@ -25,14 +27,13 @@ namespace {
 void take_by_ids(const ParticleSet& set, const std::uint8_t* node, std::uint32_t* order, int threads) {
   const std::size_t owners = set.begin.size() - 1;
   const auto less = [&](std::uint32_t p, std::uint32_t q) { return set.id[p] < set.id[q]; };
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t owner = 0; owner < owners; ++owner) {
+  for_all("sort: order by id", threads, owners, [&](std::size_t owner) {
     const std::uint32_t end = set.begin[owner + 1];
     for (std::uint32_t first = set.begin[owner], last = first; first < end; first = last) {
       while (last < end && node[last] == node[first]) ++last;
       if (!std::is_sorted(order + first, order + last, less)) std::sort(order + first, order + last, less);
     }
-  }
+  });
 }
 
 }  // namespace
@@ -60,8 +61,8 @@ std::size_t Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout
   }
   const std::uint8_t* side = set.side.empty() ? nullptr : set.side.data();
   std::size_t outside = before.end();
-#pragma omp parallel for schedule(static) num_threads(threads_) reduction(min : outside)
-  for (int t = 0; t < threads_; ++t) {
+  for_all("sort: blocks of particles", threads_, threads_, [&](int t) {
+    std::size_t own_outside = before.end();
     RecentBlocks recent;
     std::vector<std::uint64_t>& blocks = parts_[t].blocks;
     before.each_span(part_begin(n, t), part_begin(n, t + 1), [&](std::size_t first, std::size_t end) {
@@ -75,7 +76,7 @@ std::size_t Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout
           key += node / kBlockEdge * axes[k].stride;
           local = local * kBlockEdge + node % kBlockEdge;
         }
-        if (!inside) outside = std::min(outside, p);
+        if (!inside) own_outside = std::min(own_outside, p);
         scratch.code[p] = (key << node_bits_) + local;
         RecentBlocks::Entry& entry = recent.at(key);
         if (entry.key != key) {
@@ -84,7 +85,8 @@ std::size_t Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout
         }
       }
     });
-  }
+    in_turn([&] { outside = std::min(outside, own_outside); });
+  });
   return outside;
 }
 
@@ -110,8 +112,7 @@ void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
   const ParticleOrder& before = *scratch.before;
   const std::size_t n = before.count(), owners = owner_keys_.size();
   const std::uint64_t node_mask = (std::uint64_t{1} << node_bits_) - 1;
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) {
+  for_all("sort: particles of blocks", threads_, threads_, [&](int t) {
     RecentBlocks recent;
     std::vector<std::uint32_t>& count = parts_[t].next;
     count.assign(owners, 0);
@@ -128,7 +129,7 @@ void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
         ++count[entry.value];
       }
     });
-  }
+  });
 
   set.begin.resize(owners + 1);
   std::uint32_t sum = 0;
@@ -143,15 +144,14 @@ void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
   set.begin[owners] = sum;
 
   scratch.order.resize(n, scratch.room);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) {
+  for_all("sort: order by block", threads_, threads_, [&](int t) {
     std::vector<std::uint32_t>& next = parts_[t].next;
     before.each_span(part_begin(n, t), part_begin(n, t + 1), [&](std::size_t first, std::size_t end) {
       for (std::size_t p = first; p < end; ++p) {
         scratch.order[next[scratch.code[p] >> node_bits_]++] = static_cast<std::uint32_t>(p);
       }
     });
-  }
+  });
 }
 
 void Sorter::sort_by_node(ParticleSet& set, Scratch& scratch) {
@@ -161,11 +161,9 @@ void Sorter::sort_by_node(ParticleSet& set, Scratch& scratch) {
   const std::size_t span = grouping_.by == Grouping::By::column ? kBlockEdge : 1;  // nodes that may share a group
   scratch.node.resize(scratch.before->count(), scratch.room);
   set.group_begin.resize(owners + 1);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (int t = 0; t < threads_; ++t) {
-    std::vector<std::uint32_t>& sorted = parts_[t].order;
-    const std::size_t last = part_begin(owners, t + 1);
-    for (std::size_t o = part_begin(owners, t); o < last; ++o) {
+  for_parts("sort: order by node", threads_, owners, [&](std::size_t first_owner, std::size_t end, int thread) {
+    std::vector<std::uint32_t>& sorted = parts_[thread].order;
+    for (std::size_t o = first_owner; o < end; ++o) {
       const std::uint32_t begin = set.begin[o], count = set.begin[o + 1] - begin;
       std::uint32_t* order = scratch.order.data() + begin;
       std::uint8_t* node = scratch.node.data() + begin;
@@ -191,7 +189,7 @@ void Sorter::sort_by_node(ParticleSet& set, Scratch& scratch) {
         std::fill(node + first[m], node + first[m + 1], static_cast<std::uint8_t>(m));
       }
     }
-  }
+  });
   std::uint32_t sum = 0;
   for (std::size_t o = 0; o < owners; ++o) {
     const std::uint32_t groups = set.group_begin[o];
@@ -207,8 +205,7 @@ void Sorter::fill_groups(ParticleSet& set, const Scratch& scratch) const {
   static_assert(kBlockEdge == 4);
   const int shift = grouping_.by == Grouping::By::column ? 2 : 0;
   set.group.resize(set.group_begin[owners] + 1);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t o = 0; o < owners; ++o) {
+  for_all("sort: groups", threads_, owners, [&](std::size_t o) {
     std::uint32_t* group = set.group.data() + set.group_begin[o];
     const std::uint32_t begin = set.begin[o], end = set.begin[o + 1];
     int last = -1;  // place of the particles of the current group
@@ -218,7 +215,7 @@ void Sorter::fill_groups(ParticleSet& set, const Scratch& scratch) const {
       *group++ = first = p;
       last = place;
     }
-  }
+  });
   set.group.back() = static_cast<std::uint32_t>(scratch.before->count());
 }
 

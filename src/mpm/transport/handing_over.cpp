@@ -1,6 +1,9 @@
 #include <numeric>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/for_particles.hpp"
+#include "mpm/transport/local_gain.hpp"
 #include "mpm/transport/transported_field.hpp"
 #include "visits.hpp"
 
@@ -12,7 +15,8 @@ namespace mpm {
 void TransportedField::sharpen() {
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     double* change = scratch_[s][0].data();
-    each_group(parts_.sets[s].awake(), parts_.threads, [&](int first, int last, int) {
+    const ParticleSet& set = parts_.sets[s];
+    for_particle_groups("transport: changes", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
       double capacity[kGainGroup];
       find_capacities(static_cast<int>(s), first, last, capacity);
       for (int p = first; p < last; ++p) change[p] *= capacity[p - first];
@@ -21,7 +25,7 @@ void TransportedField::sharpen() {
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     NodalQuantity& nodes = nodes_[f];
     spread_scratch(static_cast<int>(f), volume_);
-    each_node(*parts_.fields[f], parts_.threads, [&](int b, int n) {
+    for_nodes("transport: changes", *parts_.fields[f], parts_.threads, [&](int b, int n) {
       const double capacity = nodes.capacity.at(b, 0, n);
       double& change = nodes.source.at(b, 0, n);
       if (capacity > 0.0) change += change - volume_.at(b, 0, n) / capacity;
@@ -41,7 +45,7 @@ void TransportedField::finish(double start, double dt, bool sees) {
   for (std::size_t f = 0; f < fields; ++f) {
     NodalQuantity& nodes = nodes_[f];
     const NodalField& room = by_volume ? rooms_[f] : nodes.capacity;
-    each_node(*parts_.fields[f], parts_.threads, [&](int b, int n) {
+    for_nodes("transport: values of nodes", *parts_.fields[f], parts_.threads, [&](int b, int n) {
       double& content = nodes.source.at(b, 0, n);
       const double capacity = room.at(b, 0, n);
       content = nodes.capacity.at(b, 0, n) > 0.0 && capacity > 0.0 ? content / capacity : 0.0;
@@ -57,7 +61,7 @@ void TransportedField::finish(double start, double dt, bool sees) {
     PaddedArray<double>& held = carried(static_cast<int>(s));
     const double* change = scratch_[s][0].data();
     sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-    each_group(set.awake(), parts_.threads, [&](int first, int last, int group) {
+    for_particle_groups("transport: changes", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
       double capacity[kGainGroup], j[kGainGroup];
       find_capacities(static_cast<int>(s), first, last, capacity);
       if (by_volume) find_volume_ratios(set, parts_.geometry, first, last, j);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/for_particles.hpp"
+#include "mpm/transport/local_gain.hpp"
 #include "mpm/transport/transported_field.hpp"
 #include "visits.hpp"
 
@@ -41,7 +44,7 @@ void TransportedField::fill(Number number) {
     const int index = static_cast<int>(s);
     const PaddedArray<double>& held = carried(index);
     double* to = scratch_[s][0].data();
-    each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
+    for_particle_groups("transport: spreading", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
       if (number == Number::capacity || number == Number::content) {
         find_capacities(index, first, last, to + first);
         for (int p = first; p < last && number == Number::content; ++p) to[p] *= held[p];
@@ -75,7 +78,7 @@ void TransportedField::find_nodal_values() {
     spread_scratch(f, nodes.value);
     nodes.source.resize(grid.blocks.size());
     nodes.capacity.resize(grid.blocks.size());
-    each_node(grid, parts_.threads, [&](int b, int n) {
+    for_nodes("transport: values of nodes", grid, parts_.threads, [&](int b, int n) {
       double& capacity = nodes.capacity.at(b, 0, n);
       if (one_capacity_) capacity = *one_capacity_ * grid.mass.at(b, 0, n);
       if (!grid.carries(b, n)) capacity = 0.0;
@@ -149,7 +152,7 @@ void TransportedField::turn_gradients() {
     const ParticleSet& set = parts_.sets[s];
     const TransportMaterial& own = material(static_cast<int>(s));
     const Symmetric3<double> k = own.anisotropy.value_or(Symmetric3<double>::isotropic(1.0));
-    each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
+    for_particle_groups("transport: gradients", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
       double conducts[kGainGroup];
       find_conductances(static_cast<int>(s), first, last, conducts);
       for (int p = first; p < last; ++p) {
@@ -169,7 +172,7 @@ void TransportedField::flow(int field, const NodalField& value, NodalField& to) 
   const Grid& grid = *parts_.fields[field];
   if (!conducts_) {
     to.resize(grid.blocks.size());
-    each_node(grid, parts_.threads, [&](int b, int n) { to.at(b, 0, n) = 0.0; });
+    for_nodes("transport: flow", grid, parts_.threads, [&](int b, int n) { to.at(b, 0, n) = 0.0; });
   } else if (!anisotropic_) {
     for (std::size_t s = 0; s < sets; ++s) given_[s] = {scratch_[s][0].data()};
     transfer_->diffuse(field, given_, value, to);
@@ -180,7 +183,7 @@ void TransportedField::flow(int field, const NodalField& value, NodalField& to) 
     transfer_->spread_gradient(field, given_, ScalarTransfer::Weight::mass, to);
   }
   const NodalField& source = nodes_[field].source;
-  each_node(grid, parts_.threads, [&](int b, int n) { to.at(b, 0, n) += source.at(b, 0, n); });
+  for_nodes("transport: flow", grid, parts_.threads, [&](int b, int n) { to.at(b, 0, n) += source.at(b, 0, n); });
 }
 
 // The same in all fields at once, whose nodes follow each other in `value`: a particle near a crack feels the gradient
@@ -208,7 +211,7 @@ void TransportedField::flow_in_all(const NodalField& value, NodalField& to) {
   }
   for (int f = 0; f < fields; ++f) {
     const NodalField& source = nodes_[f].source;
-    each_node(*parts_.fields[f], parts_.threads, [&](int b, int n) {
+    for_nodes("transport: flow", *parts_.fields[f], parts_.threads, [&](int b, int n) {
       const double flow = conducts_ ? joined.flows[f].at(b, 0, n) : 0.0;
       to.at(joined.first[f] + b, 0, n) = flow + source.at(b, 0, n);
     });
@@ -225,7 +228,7 @@ void TransportedField::drive_by_gravity() {
     const Symmetric3<double> k = own.anisotropy.value_or(Symmetric3<double>::isotropic(1.0));
     const Vec3 g = own.fluid_density * parts_.gravity;
     const Vec3 along = times(k, g);
-    each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
+    for_particle_groups("transport: gravity", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
       double conducts[kGainGroup];
       find_conductances(static_cast<int>(s), first, last, conducts);
       for (int p = first; p < last; ++p) {
@@ -242,7 +245,7 @@ void TransportedField::drive_by_gravity() {
 }
 
 void TransportedField::add_to_sources(int field) {
-  each_node(*parts_.fields[field], parts_.threads,
+  for_nodes("transport: sources", *parts_.fields[field], parts_.threads,
             [&](int b, int n) { nodes_[field].source.at(b, 0, n) += volume_.at(b, 0, n); });
 }
 
@@ -334,7 +337,7 @@ void TransportedField::begin_conduction(int field, double start) {
 void TransportedField::end_conduction(int field, double start, double dt, const NodalField& came, int first) {
   NodalQuantity& nodes = nodes_[field];
   NodalField& content = nodes.source;  // the stages have read it to the end
-  each_node(*parts_.fields[field], parts_.threads, [&](int b, int n) {
+  for_nodes("transport: values of nodes", *parts_.fields[field], parts_.threads, [&](int b, int n) {
     content.at(b, 0, n) = came.at(first + b, 0, n);
     const double capacity = nodes.capacity.at(b, 0, n);
     if (capacity > 0.0) nodes.value.at(b, 0, n) += came.at(first + b, 0, n) / capacity;

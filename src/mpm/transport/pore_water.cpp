@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "mpm/grid/for_nodes.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/for_particles.hpp"
 
 namespace mpm {
 namespace {
@@ -109,23 +111,19 @@ void PoreWater::average() {
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     const Grid& grid = *parts_.fields[f];
     transfer_->spread(static_cast<int>(f), pushes_, ScalarTransfer::Weight::mass, part_);
-#pragma omp parallel for schedule(static) num_threads(parts_.threads)
-    for (int b = 0; b < grid.blocks.size(); ++b) {
-      for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
-        part_.at(b, 0, n) = grid.carries(b, n) ? part_.at(b, 0, n) / grid.mass.at(b, 0, n) : 0.0;
-      }
-    }
+    for_nodes("pore water: mean pressure", grid, parts_.threads, [&](int b, int n) {
+      part_.at(b, 0, n) = grid.carries(b, n) ? part_.at(b, 0, n) / grid.mass.at(b, 0, n) : 0.0;
+    });
     transfer_->gather(static_cast<int>(f), part_, means_);
   }
   for (std::size_t s = 0; s < sets; ++s) {
     const double part = pressure_.material(static_cast<int>(s)).biot.xx / parts_.densities[s];
     const double* j = parts_.sets[s].brought[last_[s]].values.data();
     PaddedArray<double>& seen = pressure_.values(static_cast<int>(s));
-#pragma omp parallel for schedule(static) num_threads(parts_.threads)
-    for (int p = 0; p < parts_.sets[s].awake(); ++p) {
+    for_particles("pore water: mean pressure", parts_.sets[s], parts_.threads, [&](int p) {
       push_[s][0][p] = mean_[s][p];
       seen[p] = mean_[s][p] / (part * j[p]);
-    }
+    });
   }
 }
 
@@ -179,11 +177,8 @@ void PoreWater::add_force(StepContext& context) {
     const PaddedArray<double>& pressure = pressure_.carried(static_cast<int>(s));
     double* last = parts_.sets[s].brought[last_[s]].values.data();
     double* push = push_[s][0].data();
-    const int groups = (set.awake() + kGainGroup - 1) / kGainGroup;
-    sums_.assign(groups, 0.0);
-#pragma omp parallel for schedule(static) num_threads(parts_.threads)
-    for (int g = 0; g < groups; ++g) {
-      const int first = g * kGainGroup, end = std::min(set.awake(), (g + 1) * kGainGroup);
+    sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
+    for_particle_groups("pore water: pressure", set, kGainGroup, parts_.threads, [&](int first, int end, int g) {
       double j[kGainGroup];
       find_volume_ratios(set, parts_.geometry, first, end, j);
       for (int p = first; p < end; ++p) {
@@ -194,7 +189,7 @@ void PoreWater::add_force(StepContext& context) {
         sums_[g] += set.mass_of(p) * per_mass * part * mean * grown;
         last[p] = j[p - first];
       }
-    }
+    });
     work_ = std::accumulate(sums_.begin(), sums_.end(), work_);
     pushes_[s] = {push};
   }
@@ -204,10 +199,9 @@ void PoreWater::add_force(StepContext& context) {
     Grid& grid = *parts_.fields[f];
     const int nodes = grid.layout.nodes_per_block();
     const auto add = [&](const NodalField& from, int components, int to) {
-#pragma omp parallel for schedule(static) num_threads(parts_.threads)
-      for (int b = 0; b < grid.blocks.size(); ++b) {
+      for_blocks("pore water: force", grid, parts_.threads, [&](int b) {
         for (int i = 0; i < components * nodes; ++i) grid.force.block(b)[to * nodes + i] += from.block(b)[i];
-      }
+      });
     };
     if (isotropic_) {
       transfer_->spread_gradient_sum(static_cast<int>(f), pushes_, ScalarTransfer::Weight::mass, force_);

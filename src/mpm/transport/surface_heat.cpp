@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/step/coulomb.hpp"
 #include "mpm/step/domain_faces.hpp"
 #include "mpm/transport/transported_field.hpp"
@@ -229,7 +230,7 @@ bool SurfaceHeat::counts(const Touch& touch) const {
 }
 
 double SurfaceHeat::waiting() const {
-  double sum = ranks_ == nullptr || ranks_->first() ? kept_ : 0.0;
+  double sum = is_first(ranks_) ? kept_ : 0.0;
   for (const Touch& touch : touches_) sum += counts(touch) ? touch.friction : 0.0;
   for (const Meeting& meeting : meetings_) {
     const NodeRef node = find(meeting.field, meeting.node);

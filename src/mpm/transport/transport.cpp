@@ -10,6 +10,9 @@
 #include "mpm/math/constants.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/nanoseconds.hpp"
+#include "mpm/particles/for_particles.hpp"
+#include "mpm/ranks/of_all.hpp"
+#include "mpm/transport/local_gain.hpp"
 #include "visits.hpp"
 
 namespace mpm {
@@ -49,7 +52,7 @@ void Transport::prepare_expansion() {
 template <class Term>
 double Transport::sum_over(const ParticleSet& set, Term&& term) {
   sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-  each_group(set.awake(), parts_.threads, [&](int first, int last, int group) {
+  for_particle_groups("transport: sums", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
     for (int p = first; p < last; ++p) sums_[group] += term(p);
   });
   return std::accumulate(sums_.begin(), sums_.end(), 0.0);
@@ -164,11 +167,10 @@ double Transport::budget_error(const TransportedField& field) const {
     given += account.given;
     exchanged += account.exchanged;
   }
-  if (parts_.ranks != nullptr) parts_.ranks->sum(sums, 3);
+  add_up(parts_.ranks, sums, 3);
   const double error = std::abs(gained - given);
   if (error <= kRoundOff * exchanged) return exchanged > 0.0 ? error / exchanged : 0.0;
-  double content = field.content();
-  if (parts_.ranks != nullptr) parts_.ranks->sum(&content, 1);
+  const double content = sum_of_all(parts_.ranks, field.content());
   if (error <= kRoundOff * content) return error / content;
   return error / std::max(exchanged, kRoundOff * content);
 }
@@ -180,7 +182,7 @@ std::vector<std::pair<std::string, std::string>> transport_numbers() {
 }
 
 void Transport::numbers(std::vector<NamedNumber>& list) const {
-  const double once = parts_.ranks == nullptr || parts_.ranks->first() ? 1.0 : 0.0;  // weight of what all ranks know
+  const double once = is_first(parts_.ranks) ? 1.0 : 0.0;  // weight of what all ranks know
   for (const auto& field : fields_) {
     const TransportedTraits& of = traits_of(field->quantity());
     const std::string name = of.name, unit = of.content_unit;

@@ -8,6 +8,9 @@
 #include <numeric>
 
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/for_particles.hpp"
+#include "mpm/ranks/of_all.hpp"
+#include "mpm/transport/local_gain.hpp"
 #include "visits.hpp"
 
 namespace mpm {
@@ -150,7 +153,7 @@ void TransportedField::collect() {
       const ParticleSet& set = parts_.sets[s];
       PaddedArray<double>&value = values(index), &held = carried(index);
       sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-      each_group(set.awake(), parts_.threads, [&](int first, int last, int group) {
+      for_particle_groups("transport: gains", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
         double gain[kGainGroup] = {}, capacity[kGainGroup];
         find_capacities(index, first, last, capacity);
         gains_[g]->take(index, first, last, value.data(), gain);
@@ -173,7 +176,7 @@ void TransportedField::ask_to_stop() {
   if (!parts_.interrupt) return;
   if (parts_.ranks != nullptr && ++asked_ % kRanksEvery != 0) return;
   const bool own = parts_.interrupt();
-  if (parts_.ranks == nullptr ? !own : !parts_.ranks->any(own)) return;
+  if (!any_of_all(parts_.ranks, own)) return;
   throw StoppedError(
       fmt::format("stopped within a step, while the {} moved in stages", traits_of(definition_.quantity).name));
 }
@@ -195,7 +198,8 @@ void TransportedField::update(double start, double dt, bool reported) {
   for (auto& gain : gains_) {
     for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
       if (!gain->acts_on(static_cast<int>(s))) continue;
-      each_group(parts_.sets[s].awake(), parts_.threads, [&](int first, int last, int) {
+      const ParticleSet& set = parts_.sets[s];
+      for_particle_groups("transport: gains", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
         gain->written(static_cast<int>(s), first, last, values(static_cast<int>(s)).data());
       });
     }
@@ -211,7 +215,7 @@ void TransportedField::check_range() const {
     const ParticleSet& set = parts_.sets[s];
     const PaddedArray<double>& value = values(static_cast<int>(s));
     std::atomic<bool> all{true};
-    each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
+    for_particle_groups("transport: range", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
       if (!std::all_of(value.data() + first, value.data() + last, good)) all.store(false, std::memory_order_relaxed);
     });
     for (int p = 0; p < set.awake() && !all; ++p) {
@@ -243,7 +247,7 @@ double TransportedField::content() const {
 
 bool TransportedField::pending() const {
   const bool own = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) { return source->pending(); });
-  return parts_.ranks == nullptr || sources_.empty() ? own : parts_.ranks->any(own);
+  return sources_.empty() ? own : any_of_all(parts_.ranks, own);
 }
 
 std::vector<ContentAccount> TransportedField::accounts() const {

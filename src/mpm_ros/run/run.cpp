@@ -126,7 +126,8 @@ void Run::advance(std::chrono::steady_clock::duration late) {
     if (jump_.what.empty() || simulation_.time() > jump_.arrival + kJumpRemembered) throw;
     throw mpm::PhysicsError(fmt::format("{}; it follows a jump: {}", error.what(), jump_.what));
   }
-  mpm::timed(profile_, "run: looks for warnings", [this] {
+  const mpm::TimeProfile::Use use(profile_);
+  mpm::timed("run: looks for warnings", [this] {
     look_for_lost_bodies();
     look_for_fast_bodies();
     look_for_lost_tips();
@@ -136,7 +137,7 @@ void Run::advance(std::chrono::steady_clock::duration late) {
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;
-  const mpm::TimeProfile::Part part(profile_, "run: outputs");
+  const mpm::TimeProfile::Part part("run: outputs");
   outputs_.sync(ended(), real_time_factor());
   close_part();
 }

@@ -12,6 +12,7 @@
 
 #include "mpm/math/json_text.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "mpm_ranks/make_ranks.hpp"
@@ -254,7 +255,7 @@ class OfflineRun {
   /// Opens sinks if there is something to write. Files for ParaView on all ranks, in the folder that the first one has.
   void open_sinks() {
     mpm::Communicator* ranks = options_.ranks.get();
-    if (ranks != nullptr) options_.vtk = mpm::first_text(*ranks, options_.vtk);
+    options_.vtk = mpm::text_of_all(ranks, options_.vtk);
     together<mpm::SceneError>(ranks, [&] {
       if (!options_.csv.empty()) {
         const bool axisymmetric = mpm::axisymmetric(scene_.definition.geometry);

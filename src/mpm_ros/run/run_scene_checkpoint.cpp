@@ -15,6 +15,7 @@
 #include "mpm/math/json_text.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/scene/resumed_scene.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/scene/units.hpp"
@@ -79,7 +80,7 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
 
 void RunSceneCheckpoints::try_path(mpm::Communicator* ranks) const {
   const std::string part = part_of_checkpoint(path_);
-  const bool first = ranks == nullptr || ranks->first();
+  const bool first = mpm::is_first(ranks);
   together<mpm::SceneError>(ranks, [&] {
     if (first) make(part);
   });

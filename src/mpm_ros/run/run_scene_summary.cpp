@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mpm/ranks/of_all.hpp"
 #include "mpm/simulation/method_text.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
@@ -18,8 +19,7 @@ std::uint64_t peak_memory_bytes(mpm::Communicator* ranks) {
   rusage usage{};
   double bytes = 0.0;
   if (getrusage(RUSAGE_SELF, &usage) == 0) bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux: kibibytes
-  if (ranks != nullptr) ranks->largest(&bytes, 1);
-  return static_cast<std::uint64_t>(bytes);
+  return static_cast<std::uint64_t>(mpm::largest_of_all(ranks, bytes));
 }
 
 mpm::Traffic sent_by_all(mpm::Communicator* ranks) {

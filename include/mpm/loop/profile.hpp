@@ -1,8 +1,8 @@
-// Wall time of a run by the names of what works: passes over particles and nodes, modules, sorting, output. A part that
-// is begun within another is taken off it, so that the rows add up to the whole.
+// Wall time of a run by the names of what works: loops (loop/loop.hpp), modules, sorting, output. A part that is begun
+// within another is taken off it, so that the rows add up to the whole.
 //
-// Without a profile (a null pointer) a part costs one comparison. It is of the thread that steps; what that thread
-// waits for others in a parallel loop counts with the loop.
+// A profile is that of a thread, the one that steps, while it is in use there; without one a part costs a call. What
+// that thread waits for others in a parallel loop counts with the loop.
 #pragma once
 
 #include <chrono>
@@ -17,17 +17,29 @@ class TimeProfile {
  public:
   struct Row {
     std::string name;
-    double seconds = 0.0;  ///< without parts that were begun within
-    std::uint64_t calls = 0;
+    double seconds = 0.0;     ///< without parts that were begun within
+    std::uint64_t calls = 0;  ///< without those from a part of the same name
+  };
+
+  /// Makes `profile`, which may be null, that of this thread, from its construction to its end.
+  class Use {
+   public:
+    explicit Use(TimeProfile* profile);
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    ~Use();
+
+   private:
+    TimeProfile* before_;
   };
 
   /// A part, from its construction to its end.
   class Part {
    public:
-    /// `profile`: may be null. `name`: of a row, a new one or one that is there; or a function that returns it, which
-    /// is asked with a profile alone.
+    /// `name`: of a row, a new one or one that is there; or a function that returns it, which is asked with a profile
+    /// alone.
     template <class Name>
-    Part(TimeProfile* profile, const Name& name) : profile_(profile) {
+    explicit Part(const Name& name) : profile_(current()) {
       if (profile_ == nullptr) return;
       if constexpr (std::is_invocable_v<Name>) {
         profile_->begin(name());
@@ -59,6 +71,8 @@ class TimeProfile {
     Clock::time_point since;
     double within = 0.0;  ///< time of parts that were begun and have ended within [s]
   };
+  /// Profile in use on this thread, or null.
+  static TimeProfile* current();
   void begin(const std::string& name);
   void end();
 
@@ -66,10 +80,10 @@ class TimeProfile {
   std::vector<Open> open_;
 };
 
-/// Does `work` as a part of `profile`, which may be null.
+/// Does `work` as a part of the profile in use, if there is one.
 template <class Work>
-decltype(auto) timed(TimeProfile* profile, const char* name, Work&& work) {
-  const TimeProfile::Part part(profile, name);
+decltype(auto) timed(const char* name, Work&& work) {
+  const TimeProfile::Part part(name);
   return work();
 }
 

@@ -1,16 +1,28 @@
-#include "mpm/step/profile.hpp"
+#include "mpm/loop/profile.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace mpm {
+namespace {
+
+thread_local TimeProfile* in_use = nullptr;
+
+}  // namespace
+
+TimeProfile* TimeProfile::current() { return in_use; }
+
+TimeProfile::Use::Use(TimeProfile* profile) : before_(std::exchange(in_use, profile)) {}
+
+TimeProfile::Use::~Use() { in_use = before_; }
 
 void TimeProfile::begin(const std::string& name) {
   const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row.name == name; });
   const auto row = static_cast<std::size_t>(found - rows_.begin());
   if (found == rows_.end()) rows_.push_back({name, 0.0, 0});
-  ++rows_[row].calls;
+  if (open_.empty() || open_.back().row != row) ++rows_[row].calls;
   open_.push_back({row, Clock::now()});
 }
 

@@ -6,23 +6,23 @@
 #include <cstddef>
 #include <vector>
 
+#include "mpm/loop/loop.hpp"
+
 namespace mpm {
 
 /// `Sum` begins as {} and has +=.
 template <class Sum>
 class ChunkSums {
  public:
-  /// `visit(i, sum)` visits entry i and adds to `sum`; no two entries may write the same.
+  /// `visit(i, sum)` visits entry i and adds to `sum`; no two entries may write the same. `name`: of the loop.
   template <class Visit>
-  Sum over(std::size_t entries, int threads, Visit&& visit) {
+  Sum over(const char* name, std::size_t entries, int threads, Visit&& visit) {
     const int chunks = static_cast<int>((entries + kChunk - 1) / kChunk);
     sums_.assign(chunks, Sum{});
-    const int useful = std::clamp(chunks / kChunksPerThread, 1, threads);
-#pragma omp parallel for schedule(static) num_threads(useful) if (useful > 1)
-    for (int c = 0; c < chunks; ++c) {
+    for_all(name, std::clamp(chunks / kChunksPerThread, 1, threads), chunks, [&](int c) {
       const std::size_t end = std::min(entries, (c + std::size_t{1}) * kChunk);
       for (std::size_t i = c * kChunk; i < end; ++i) visit(i, sums_[c]);
-    }
+    });
     Sum all{};
     for (const Sum& sum : sums_) all += sum;
     return all;

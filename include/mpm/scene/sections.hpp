@@ -10,12 +10,10 @@
 #include "mpm/scene/auto_method.hpp"
 #include "mpm/scene/reader.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/simulation/method_rules.hpp"
 
 namespace mpm {
-
-/// Material of a deformable body.
-const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& scene);
 
 /// `units`
 UnitSystem read_units(const Value& value);
@@ -137,13 +135,5 @@ FrictionLaw read_friction(const Value& value);
 Box read_particle_region(const Value& value);
 /// A name that Simulation::particle_fields() knows.
 std::string read_particle_field(const Value& value);
-/// Distance between particle centres along an axis [m].
-double particle_spacing(const Scene& scene, int axis);
-/// Name of a world axis.
-const char* axis_name(int axis);
-/// World axes of the scene's grid (math/geometry_kind.hpp).
-std::vector<int> axes_of(const Scene& scene);
-/// "a line", "a planar scene", "a solid scene".
-const char* scene_kind(GeometryKind geometry);
 
 }  // namespace mpm

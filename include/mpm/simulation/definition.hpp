@@ -34,6 +34,8 @@
 
 namespace mpm {
 
+constexpr double kMostSteps = 1e7;  ///< in a sync period; more is a run that went wrong
+
 /// A definition that cannot be simulated (bad input: exit code 2).
 class DefinitionError : public Error {
  public:

@@ -44,8 +44,6 @@ struct Settling {
   double wanted = 0.0;      ///< at which the soil has settled
 };
 
-constexpr double kMostSteps = 1e7;  ///< in a sync period; more is a run that went wrong
-
 struct RunParts;
 /// Adds the modules of a physics to a run (simulation/run_parts.hpp).
 using AddModules = std::function<void(RunParts&)>;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/terrain.hpp"
 #include "mpm/shape/ring.hpp"
 

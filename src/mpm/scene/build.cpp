@@ -16,7 +16,7 @@
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/scene_warnings.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/terrain.hpp"
 #include "mpm/simulation/layout.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/particles/particle_set.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/terrain.hpp"
 
 namespace mpm {

@@ -8,7 +8,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/constants.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 
 namespace mpm {
 namespace {
@@ -122,12 +122,6 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
 }
 
 }  // namespace
-
-const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& scene) {
-  const auto& materials = scene.definition.materials;
-  return *std::find_if(materials.begin(), materials.end(),
-                       [&](const MaterialDefinition& material) { return material.name == body.material; });
-}
 
 ExpectedMotion expected_motion(const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "mpm/scene/feasible.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/method_text.hpp"
 #include "mpm/simulation/transport_work.hpp"

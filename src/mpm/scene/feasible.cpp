@@ -9,7 +9,7 @@
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/constants.hpp"
 #include "mpm/scene/memory.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/terrain.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/simulation/transport_work.hpp"

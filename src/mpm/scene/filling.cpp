@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mpm/math/nearest.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/tool_size.hpp"
 

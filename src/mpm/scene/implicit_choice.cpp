@@ -10,7 +10,7 @@
 #include "mpm/pace/tool_use.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/scene_warnings.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/tool_motion.hpp"
 #include "mpm/simulation/feature_rules.hpp"
 #include "mpm/simulation/implicit_rules.hpp"

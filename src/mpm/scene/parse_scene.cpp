@@ -82,28 +82,11 @@ void tell_of_averages(Scene& scene) {
 
 }  // namespace
 
-const char* axis_name(int axis) {
-  static constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
-  return kNames.at(static_cast<std::size_t>(axis));
-}
-
-std::vector<int> axes_of(const Scene& scene) { return axes_of(scene.definition.geometry); }
-
-const char* scene_kind(GeometryKind geometry) {
-  if (geometry == GeometryKind::line) return "a line";
-  if (axisymmetric(geometry)) return "an axisymmetric scene";
-  return planar(geometry) ? "a planar scene" : "a solid scene";
-}
-
 void fail_at(const Map& root, const MethodFault& fault) {
   const std::string section = fault.key.substr(0, fault.key.find('.'));
   const std::string rest = section == fault.key ? fault.text : fault.key.substr(section.size() + 1) + ": " + fault.text;
   if (const auto named = root.find(section)) named->fail(rest);
   root.fail(fault.key + ": " + fault.text);
-}
-
-double particle_spacing(const Scene& scene, int axis) {
-  return scene.definition.grid.cell[axis] / scene.definition.method.particles_per_direction;
 }
 
 Scene parse_scene(const std::string& text, const std::string& label, const std::vector<std::string>& overrides) {

@@ -7,7 +7,7 @@
 
 #include "mpm/material/law.hpp"
 #include "mpm/material/material_point.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/tool_motion.hpp"
 
 namespace mpm {

@@ -13,7 +13,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/input_file.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 #include "mpm/scene/source.hpp"
 
 namespace mpm {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/scene_parts.hpp"
 
 namespace mpm {
 namespace {

@@ -9,7 +9,7 @@ install(FILES scripts/plot_animation.py scripts/plot_compare.py scripts/plot_cra
   scripts/plot_view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/mpm include/mpm_ranks include/mpm_ros DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION}
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "mpm/study" EXCLUDE PATTERN "petsc_communicator.hpp" EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "petsc_communicator.hpp" EXCLUDE)
 install(DIRECTORY launch config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS
   PATTERN "__pycache__" EXCLUDE)

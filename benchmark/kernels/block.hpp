@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "mpm/definition/definition.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/material/law.hpp"
-#include "mpm/simulation/definition.hpp"
 #include "mpm/step/sorter.hpp"
 
 namespace bench {

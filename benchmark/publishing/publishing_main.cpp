@@ -16,8 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/scene/scene.hpp"
-#include "mpm_ros/run/bag_recorder.hpp"
-#include "mpm_ros/run/run_outputs.hpp"
+#include "mpm_ros/record/bag_recorder.hpp"
+#include "mpm_ros/record/run_outputs.hpp"
 
 namespace {
 

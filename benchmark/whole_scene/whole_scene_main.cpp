@@ -10,8 +10,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "mpm/rules/method_text.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/method_text.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // rosrun mpm_ros material_driver MATERIAL [PATH]: drives one piece of material along a path of strain or stress. Wiring
-// only; see mpm/scene/material_driver.hpp.
+// only; see mpm/sections/material_driver.hpp.
 //
 // Exit codes: 0 done, 1 the disk is full, 2 bad input, 3 the law failed.
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 #include "mpm/material/path_driver.hpp"
 #include "mpm/math/files_in_use.hpp"
 #include "mpm/math/output_file.hpp"
-#include "mpm/scene/material_driver.hpp"
+#include "mpm/sections/material_driver.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
 namespace {

@@ -11,14 +11,14 @@
 #include <iostream>
 #include <new>
 
-#include "mpm/scene/all_keys.hpp"
+#include "mpm/sections/all_keys.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
 #include "mpm_ros/run/run_scene.hpp"
-#include "mpm_ros/run/run_sweep.hpp"
-#include "mpm_ros/run/shared_cores.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
+#include "mpm_ros/sweeping/run_sweep.hpp"
+#include "mpm_ros/sweeping/shared_cores.hpp"
 
 namespace {
 

@@ -17,8 +17,8 @@
 #include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
-#include "mpm_ros/run/shared_cores.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
+#include "mpm_ros/sweeping/shared_cores.hpp"
 
 namespace {
 

@@ -6,12 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "mpm/study/suite.hpp"
-#include "mpm/study/tool_force/run.hpp"
-#include "mpm/study/work_precision.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/report/report_plots.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
+#include "study/suite.hpp"
+#include "study/tool_force/run.hpp"
+#include "study/work_precision.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // A scene with a target, from the choice to the record of a run: what is said, what is kept, and that recordings and
 // checkpoints do not choose anew.
-#include "mpm_ros/run/aim.hpp"
+#include "mpm_ros/aim/aim.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "mpm/scene/target_choice.hpp"
+#include "mpm/advice/target_choice.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 

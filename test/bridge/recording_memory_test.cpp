@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/record/bag_recorder.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
-#include "mpm_ros/run/bag_recorder.hpp"
 
 namespace mpm_ros {
 namespace recording_memory_test {

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "mpm_ros/command/command_log.hpp"
+#include "mpm_ros/record/output_names.hpp"
 #include "mpm_ros/report/report_plots.hpp"
-#include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/run.hpp"
 #include "test_files.hpp"
 

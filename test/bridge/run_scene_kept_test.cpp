@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "full_disk.hpp"
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run_scene.hpp"

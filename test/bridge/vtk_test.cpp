@@ -11,11 +11,11 @@
 #include <sstream>
 
 #include "full_disk.hpp"
+#include "mpm_ros/record/crack_lines.hpp"
+#include "mpm_ros/record/vtk_file.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
-#include "mpm_ros/run/crack_lines.hpp"
 #include "mpm_ros/run/run_scene.hpp"
-#include "mpm_ros/run/vtk_file.hpp"
 #include "test_files.hpp"
 
 namespace mpm_ros {

@@ -11,7 +11,7 @@
 #include <atomic>
 #include <thread>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "simulator_process.hpp"
 #include "test_files.hpp"
 

@@ -3,7 +3,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <mpm_ros/Checkpoint.h>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "process_memory.hpp"
 #include "simulator_process.hpp"

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "axis_weights.hpp"
-#include "mpm/simulation/definition.hpp"
+#include "mpm/definition/definition.hpp"
 
 namespace stability {
 

@@ -1,7 +1,7 @@
-// Nonuniform shear: the generalised vortex of the study (src/mpm/study/vortex.cpp) at increasing turns. CPDI's domains
-// are parallelograms, computed from each particle's own F, that fit together only in a uniform deformation; here they
-// separate and tangle even with exact x and F, by amounts that follow from the exact motion. Parallelograms that
-// overlap or leave gaps in such motions are why CPDI2 lets neighbours share corners (Sadeghirad, Brannon & Guilkey
+// Nonuniform shear: the generalised vortex of the study (benchmark/study/vortex.cpp) at increasing turns. CPDI's
+// domains are parallelograms, computed from each particle's own F, that fit together only in a uniform deformation;
+// here they separate and tangle even with exact x and F, by amounts that follow from the exact motion. Parallelograms
+// that overlap or leave gaps in such motions are why CPDI2 lets neighbours share corners (Sadeghirad, Brannon & Guilkey
 // (2013)); CPDI for large shear: Sadeghirad, Brannon & Burghardt (2011).
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 
 #include "corners.hpp"
 #include "methods.hpp"
-#include "mpm/study/problems.hpp"
 #include "page.hpp"
 #include "probe.hpp"
+#include "study/problems.hpp"
 
 namespace stability {
 namespace tangling_test {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "full_disk.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/checkpoint.hpp"
 #include "rank_counts.hpp"
 #include "ranks_promises.hpp"
 #include "thread_communicator.hpp"

@@ -1,6 +1,6 @@
 // method: auto. Expected choices are worked out by hand from made-up tables by the rule of choice/preference.hpp, and
-// the expected motion by the formulas of scene/expected_motion.hpp.
-#include "mpm/scene/auto_method.hpp"
+// the expected motion by the formulas of advice/expected_motion.hpp.
+#include "mpm/advice/auto_method.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,9 +10,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "mpm/advice/expected_motion.hpp"
+#include "mpm/advice/explain.hpp"
 #include "mpm/choice/method_choice.hpp"
-#include "mpm/scene/expected_motion.hpp"
-#include "mpm/scene/explain.hpp"
 #include "test_files.hpp"
 
 namespace mpm {
@@ -394,7 +394,8 @@ TEST(AutoMethod, BadKeysSayWhatToWrite) {
             start + ".cost: a budget is an error or a cost, not both; leave one out");
   EXPECT_EQ(why("{auto: true}").find(start + ": found one value; write keys, of strain, turn, error, cost"), 0U);
   EXPECT_EQ(why("auot").find("bad.yaml:5: method: 'auot' is not known; did you mean 'auto'?"), 0U) << why("auot");
-  EXPECT_EQ(why("{auto: {}, shape: dirac, transfer: apic}").find("bad.yaml:5: method.transfer: apic and particles"), 0U);
+  EXPECT_EQ(why("{auto: {}, shape: dirac, transfer: apic}").find("bad.yaml:5: method.transfer: apic and particles"),
+            0U);
   const std::string line =
       "geometry: line\ngrid: {cell: 0.1, min: 0, max: 1}\n"
       "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0}]\n"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mpm/advice/explain.hpp"
 #include "mpm/math/constants.hpp"
-#include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "checkpoint_run.hpp"
 #include "full_disk.hpp"
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();  // gcc ships no header for it

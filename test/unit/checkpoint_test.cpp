@@ -1,6 +1,6 @@
 // Checkpoints: a run that loads one continues to the bit like a run that was never stopped, at whatever sync point it
 // was saved, for every stage, method and law.
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mpm/contact/point_contact.hpp"
-#include "mpm/simulation/run_parts.hpp"
+#include "mpm/modules/run_parts.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "particle_block.hpp"
 

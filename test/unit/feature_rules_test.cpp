@@ -1,6 +1,6 @@
 // The table of features that do not go together: each of its rows refuses a scene that has both, no other pair is
 // refused by it, and doc/features.md shows it. 0.3 s.
-#include "mpm/simulation/feature_rules.hpp"
+#include "mpm/rules/feature_rules.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Rule by which `method: auto` takes implicit steps (scene/implicit_choice.hpp). 0.1 s.
+// Rule by which `method: auto` takes implicit steps (advice/implicit_choice.hpp). 0.1 s.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// Combinations that implicit steps allow (simulation/implicit_rules.hpp): each refusal names its key. 0.1 s.
+// Combinations that implicit steps allow (rules/implicit_rules.hpp): each refusal names its key. 0.1 s.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -8,7 +8,7 @@
 
 #include "material_zoo.hpp"
 #include "mpm/material/path_driver.hpp"
-#include "mpm/scene/material_driver.hpp"
+#include "mpm/sections/material_driver.hpp"
 
 namespace johnson_cook_test {
 

@@ -10,8 +10,8 @@
 
 #include "mpm/material/law_keys.hpp"
 #include "mpm/math/build_info.hpp"
-#include "mpm/scene/all_keys.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/sections/all_keys.hpp"
 #include "mpm/sleep/sleep_keys.hpp"
 
 namespace mpm {

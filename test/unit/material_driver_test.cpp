@@ -1,5 +1,5 @@
 // The input and output of the program material_driver.
-#include "mpm/scene/material_driver.hpp"
+#include "mpm/sections/material_driver.hpp"
 
 #include <gtest/gtest.h>
 

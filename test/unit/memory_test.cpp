@@ -1,5 +1,5 @@
 // The least memory of a scene, against a count by hand.
-#include "mpm/scene/memory.hpp"
+#include "mpm/advice/memory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/math/constants.hpp"
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/modules/run_parts.hpp"
 #include "mpm/simulation/global_quantity.hpp"
-#include "mpm/simulation/run_parts.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "mpm/scene/scene.hpp"
-#include "mpm/study/suite.hpp"
-#include "mpm/study/tool_force/places.hpp"
+#include "study/suite.hpp"
+#include "study/tool_force/places.hpp"
 
 namespace mpm::study::tool_force {
 namespace problem_places_test {

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/advice/coarser_scene.hpp"
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/nanoseconds.hpp"
 #include "mpm/pace/forecast.hpp"
-#include "mpm/scene/coarser_scene.hpp"
 
 namespace rehearsal_test {
 

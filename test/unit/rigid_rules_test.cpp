@@ -1,11 +1,11 @@
 // Refusals of what does not go together with a rigid body: each rule alone, in a definition that is else taken.
-#include "mpm/simulation/rigid_rules.hpp"
+#include "mpm/rules/rigid_rules.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "mpm/simulation/feature_rules.hpp"
+#include "mpm/rules/feature_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "particle_block.hpp"
 

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "mpm/simulation/checkpoint.hpp"
-#include "mpm/simulation/run_parts.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
+#include "mpm/modules/run_parts.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {

@@ -2,9 +2,9 @@
 // texts are written by hand from the rule "file:line: key.path: what; what to write instead".
 #include <gtest/gtest.h>
 
+#include "mpm/rules/method_rules.hpp"
+#include "mpm/rules/method_text.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/method_rules.hpp"
-#include "mpm/simulation/method_text.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "mpm/scene/explain.hpp"
+#include "mpm/advice/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 

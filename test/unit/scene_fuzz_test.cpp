@@ -16,11 +16,11 @@
 #include <thread>
 #include <vector>
 
+#include "mpm/advice/memory.hpp"
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/build_info.hpp"
-#include "mpm/scene/memory.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/sections/sections.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "scene_mutator.hpp"
 

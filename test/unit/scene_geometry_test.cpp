@@ -1,7 +1,7 @@
 // Scenes of every geometry: how values are read, and the refusals of a line and of plane stress.
 #include <gtest/gtest.h>
 
-#include "mpm/scene/explain.hpp"
+#include "mpm/advice/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 

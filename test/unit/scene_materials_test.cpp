@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "mpm/math/constants.hpp"
+#include "mpm/rules/geometry_rules.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/geometry_rules.hpp"
 
 namespace mpm {
 namespace scene_materials_test {

@@ -2,10 +2,10 @@
 // written by hand from the rule "file:line: key.path: what; what to write instead".
 #include <gtest/gtest.h>
 
-#include "mpm/scene/explain.hpp"
+#include "mpm/advice/explain.hpp"
+#include "mpm/rules/method_rules.hpp"
+#include "mpm/rules/method_text.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/method_rules.hpp"
-#include "mpm/simulation/method_text.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {

@@ -12,8 +12,8 @@
 #include <limits>
 #include <random>
 
-#include "mpm/scene/height_topic.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/terrain/height_topic.hpp"
 
 namespace mpm {
 namespace scene_terrain_test {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "mpm/definition/tool_size.hpp"
 #include "mpm/simulation/simulation.hpp"
-#include "mpm/simulation/tool_size.hpp"
 #include "scene_tool.hpp"
 
 namespace mpm {

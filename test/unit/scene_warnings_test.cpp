@@ -1,10 +1,10 @@
 // Warnings of what is possible in a scene and most often not meant: slips of units, ends between sync points, transport
 // that sets the pace; and what --explain prints so that they are seen.
-#include "mpm/scene/scene_warnings.hpp"
+#include "mpm/advice/scene_warnings.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mpm/scene/explain.hpp"
+#include "mpm/advice/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/study/limit_loads.hpp"
-#include "mpm/study/suite.hpp"
+#include "study/limit_loads.hpp"
+#include "study/suite.hpp"
 
 namespace mpm::study {
 namespace study_limit_loads_test {

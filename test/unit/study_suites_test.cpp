@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "mpm/choice/method_costs.hpp"
-#include "mpm/study/measures.hpp"
-#include "mpm/study/problems.hpp"
+#include "study/measures.hpp"
+#include "study/problems.hpp"
 
 namespace mpm::study {
 namespace study_suites_test {

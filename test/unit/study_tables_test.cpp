@@ -8,10 +8,10 @@
 
 #include "mpm/choice/front.hpp"
 #include "mpm/choice/method_choice.hpp"
-#include "mpm/study/counted_work.hpp"
-#include "mpm/study/problems.hpp"
-#include "mpm/study/runner.hpp"
-#include "mpm/study/summary.hpp"
+#include "study/counted_work.hpp"
+#include "study/problems.hpp"
+#include "study/runner.hpp"
+#include "study/summary.hpp"
 
 namespace mpm::study {
 namespace study_tables_test {

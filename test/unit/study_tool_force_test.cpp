@@ -7,9 +7,9 @@
 
 #include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/study/suite.hpp"
-#include "mpm/study/tool_force/force_measure.hpp"
-#include "mpm/study/tool_force/run.hpp"
+#include "study/suite.hpp"
+#include "study/tool_force/force_measure.hpp"
+#include "study/tool_force/run.hpp"
 
 namespace mpm::study::tool_force {
 namespace study_tool_force_test {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/scene/target_choice.hpp"
-#include "mpm/scene/target_half.hpp"
-#include "mpm/scene/target_record.hpp"
+#include "mpm/advice/target_choice.hpp"
+#include "mpm/advice/target_half.hpp"
+#include "mpm/advice/target_record.hpp"
 
 namespace mpm {
 namespace target_scene_test {

@@ -1,5 +1,5 @@
 // Quantities and unit systems. Factors: SI brochure (9th edition) and, for inch and pound, NIST SP 811 appendix B.
-#include "mpm/scene/units.hpp"
+#include "mpm/yaml/units.hpp"
 
 #include <gtest/gtest.h>
 

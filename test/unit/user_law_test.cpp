@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "checkpoint_run.hpp"
-#include "mpm/scene/material_driver.hpp"
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
+#include "mpm/sections/material_driver.hpp"
 #include "putty.hpp"
 #include "sleep_run.hpp"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "mpm/rigid/surface.hpp"
-#include "mpm/simulation/method_rules.hpp"
+#include "mpm/rules/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "particle_block.hpp"
 

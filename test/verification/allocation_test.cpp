@@ -10,7 +10,7 @@
 #include <new>
 
 #include "../unit/material_zoo.hpp"
-#include "mpm/simulation/method_rules.hpp"
+#include "mpm/rules/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace allocation_test {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "mpm/math/constants.hpp"
+#include "mpm/rules/method_rules.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {

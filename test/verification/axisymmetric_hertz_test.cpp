@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hertz_curve.hpp"
-#include "mpm/scene/memory.hpp"
+#include "mpm/advice/memory.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/study/limit_loads.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
+#include "study/limit_loads.hpp"
 
 namespace verification {
 namespace cone_penetrometer_test {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "crack_case.hpp"
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "page.hpp"
 
 namespace verification {

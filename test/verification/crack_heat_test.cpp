@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "crack_case.hpp"
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "page.hpp"
 #include "transport_run.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "scene_run.hpp"
 

@@ -9,7 +9,7 @@
 #include "mpm/math/constants.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
-#include "mpm/study/tool_force/run.hpp"
+#include "study/tool_force/run.hpp"
 
 namespace mpm {
 namespace dilation_end_test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "implicit_scene.hpp"
-#include "mpm/study/tool_force/run.hpp"
+#include "study/tool_force/run.hpp"
 
 namespace implicit_axisymmetric_test {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "scene_run.hpp"
 
 namespace verification {

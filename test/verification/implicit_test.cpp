@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "implicit_scene.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/math/constants.hpp"
-#include "mpm/simulation/checkpoint.hpp"
-#include "mpm/study/tool_force/run.hpp"
+#include "study/tool_force/run.hpp"
 
 namespace implicit_test {
 
@@ -29,8 +29,8 @@ double largest(const mpm::Simulation& run, const std::string& field) {
   return *std::max_element(values.begin(), values.end());
 }
 
-// Bounds of limit analysis (mpm/study/limit_loads.hpp), in the mean over five places of the blade within a cell: within
-// a tenth with 4 cells of depth, in steps of 10 ms, which explicit steps need 20 of.
+// Bounds of limit analysis (benchmark/study/limit_loads.hpp), in the mean over five places of the blade within a cell:
+// within a tenth with 4 cells of depth, in steps of 10 ms, which explicit steps need 20 of.
 TEST(ImplicitStep, BladesMeetTheirLimitLoads) {
   for (const char* name : {"blade_flat", "blade_chisel", "blade_rough", "blade_flat_0"}) {
     const auto row = tool_force::run_places(tool_force::find_problem(name), 4.0, {}, {"method={update: implicit}"});

@@ -10,9 +10,9 @@
 
 #include <algorithm>
 
-#include "mpm/study/problems.hpp"
-#include "mpm/study/runner.hpp"
 #include "page.hpp"
+#include "study/problems.hpp"
+#include "study/runner.hpp"
 
 namespace verification {
 namespace method_order_test {

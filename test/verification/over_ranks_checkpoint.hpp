@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "over_ranks_run.hpp"
 
 namespace verification {

@@ -2,8 +2,8 @@
 //
 // They touch over 1.1 and 1.4 cells to either side, so that the force depends on where contact sees the surface: filled
 // by whole places of the lattice, a disk has flats of 36 mm where it is to touch over 18 mm, and needs 1.46 times the
-// force, and a sphere 2.1 times. With particles that follow the surface (scene/cut_cells.hpp) what is left comes from
-// the cells, and differs with the place of the body between the nodes; several places are run.
+// force, and a sphere 2.1 times. With particles that follow the surface (building/cut_cells.hpp) what is left comes
+// from the cells, and differs with the place of the body between the nodes; several places are run.
 //
 // Sources: the approach of two plates that press a cylinder by P a length is, from either side,
 //   P (1 - nu^2) / (pi E) (2 ln(4 R / a) - 1) with a^2 = 4 P R (1 - nu^2) / (pi E),

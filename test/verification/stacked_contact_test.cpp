@@ -9,7 +9,7 @@
 #include <cmath>
 #include <memory>
 
-#include "mpm/simulation/run_parts.hpp"
+#include "mpm/modules/run_parts.hpp"
 #include "pair_scene.hpp"
 
 namespace verification {

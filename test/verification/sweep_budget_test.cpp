@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "scene_run.hpp"
 
 namespace sweep_budget_test {

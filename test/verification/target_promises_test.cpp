@@ -5,9 +5,9 @@
 
 #include <string>
 
+#include "mpm/advice/target_choice.hpp"
 #include "mpm/math/build_info.hpp"
-#include "mpm/scene/target_choice.hpp"
-#include "mpm/study/tool_force/run.hpp"
+#include "study/tool_force/run.hpp"
 
 namespace target_promises_test {
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "mpm/rigid/surface.hpp"
-#include "mpm/simulation/method_rules.hpp"
+#include "mpm/rules/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "particle_block.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mpm/math/constants.hpp"
-#include "mpm/study/tool_force/run.hpp"
 #include "scene_run.hpp"
+#include "study/tool_force/run.hpp"
 
 namespace tool_places_test {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/definition/definition.hpp"
 #include "mpm/math/error.hpp"
-#include "mpm/simulation/definition.hpp"
 
 namespace mpm::choice {
 

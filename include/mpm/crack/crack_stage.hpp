@@ -28,7 +28,7 @@ namespace mpm {
 
 class CrackStage final : public Stage {
  public:
-  /// Parts that it works with; made by simulation/crack_module.cpp. `sync`: between sync points [s].
+  /// Parts that it works with; made by modules/crack_module.cpp. `sync`: between sync points [s].
   struct Parts {
     std::vector<Crack> cracks;
     std::unique_ptr<FieldJumps> jumps;

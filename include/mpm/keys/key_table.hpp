@@ -1,5 +1,5 @@
 // A section of a scene as a table of keys. From it come its reading and the errors of that (scene/read_keys.hpp), the
-// check of a definition made in C++, and a table of the pages (scene/all_keys.hpp). It stands beside the definition:
+// check of a definition made in C++, and a table of the pages (sections/all_keys.hpp). It stands beside the definition:
 //
 //   const KeyTable<SleepDefinition>& sleep_keys() {
 //     static const auto keys = KeyTable<SleepDefinition>("sleep").rows(

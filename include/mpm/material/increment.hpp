@@ -33,7 +33,7 @@ enum class ImplicitSteps { refused, possible, measured };
 /// Facts about a law, for those who ask: a constant kMatter, kRateDependent and so on of each law. None has a default,
 /// so that a law which does not say it does not compile.
 struct LawTraits {
-  /// Soil is grains that rub, whose flow sheds noise (calm() in scene/method_section.cpp).
+  /// Soil is grains that rub, whose flow sheds noise (calm() in sections/method_section.cpp).
   Matter matter;
   bool rate_dependent;         ///< stress depends on the rate of strain
   bool stiffness_of_pressure;  ///< stiffness follows the pressure, so that it has none of its own

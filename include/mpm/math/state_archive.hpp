@@ -12,7 +12,7 @@
 // reads its own; with another number of them, Merge says what becomes of it: what is the same on all is a value, parts
 // of a sum are stored by sum() and sum_column(), and lists are joined, or shared out (Share).
 //
-// Numbers are stored to the last bit. A derived class decides where they go (simulation/hdf5_archive.hpp). Weak:
+// Numbers are stored to the last bit. A derived class decides where they go (checkpoint/hdf5_archive.hpp). Weak:
 // reading trusts the names; a class that stores other numbers than before needs a new version of the file.
 #pragma once
 

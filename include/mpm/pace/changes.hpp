@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/definition/definition.hpp"
 #include "mpm/pace/forecast.hpp"
-#include "mpm/simulation/definition.hpp"
 
 namespace mpm::pace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/definition.hpp"
+#include "mpm/definition/definition.hpp"
 
 namespace mpm::pace {
 

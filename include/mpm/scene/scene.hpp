@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/definition/definition.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/pace/target.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/rigid/motion_limits.hpp"
-#include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/global_quantity.hpp"
 
 namespace mpm {

@@ -15,15 +15,15 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/definition/definition.hpp"
+#include "mpm/definition/particle_choice.hpp"
+#include "mpm/definition/report.hpp"
 #include "mpm/kernel/isa.hpp"
 #include "mpm/loop/profile.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/math/stopped.hpp"
 #include "mpm/ranks/communicator.hpp"
-#include "mpm/simulation/definition.hpp"
-#include "mpm/simulation/particle_choice.hpp"
-#include "mpm/simulation/report.hpp"
 
 namespace mpm {
 
@@ -45,7 +45,7 @@ struct Settling {
 };
 
 struct RunParts;
-/// Adds the modules of a physics to a run (simulation/run_parts.hpp).
+/// Adds the modules of a physics to a run (modules/run_parts.hpp).
 using AddModules = std::function<void(RunParts&)>;
 
 struct SimulationOptions {
@@ -169,7 +169,7 @@ class Simulation {
   /// time.
   std::uint64_t memory_hash();
 
-  /// Writes to, or reads from, a checkpoint (simulation/checkpoint.hpp) all that the run's future and its reports
+  /// Writes to, or reads from, a checkpoint (checkpoint/checkpoint.hpp) all that the run's future and its reports
   /// depend on beyond the definition. To be called at a sync point. Reading requires a Simulation of the same
   /// definition, instruction set and precision; it then continues like the one that was written, to the bit, on any
   /// number of threads. After an error it cannot go on. @throws the archive's error

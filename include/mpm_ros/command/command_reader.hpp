@@ -19,7 +19,7 @@
 #include <tuple>
 #include <vector>
 
-#include "mpm/simulation/report.hpp"
+#include "mpm/definition/report.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/message/node_health.hpp"
 #include "mpm_ros/message/stamps.hpp"

@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "mpm/definition/report.hpp"
 #include "mpm/math/state_archive.hpp"
-#include "mpm/simulation/report.hpp"
 #include "mpm_ros/command/body_command.hpp"
 
 namespace mpm_ros {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/report.hpp"
+#include "mpm/definition/report.hpp"
 #include "mpm_ros/csv/csv_writer.hpp"
 
 namespace mpm_ros {

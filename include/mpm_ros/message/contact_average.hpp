@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "mpm/definition/report.hpp"
 #include "mpm/math/state_archive.hpp"
-#include "mpm/simulation/report.hpp"
 
 namespace mpm_ros {
 

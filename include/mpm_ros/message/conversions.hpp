@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/definition/report.hpp"
 #include "mpm/rigid/motion.hpp"
-#include "mpm/simulation/report.hpp"
 
 namespace mpm_ros {
 

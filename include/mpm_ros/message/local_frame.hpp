@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "mpm/simulation/definition.hpp"
+#include "mpm/definition/definition.hpp"
 
 namespace mpm_ros {
 

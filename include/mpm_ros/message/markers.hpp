@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/report.hpp"
+#include "mpm/definition/report.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm_ros {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/report.hpp"
+#include "mpm/definition/report.hpp"
 #include "mpm_ros/message/quantity.hpp"
 
 namespace mpm_ros {

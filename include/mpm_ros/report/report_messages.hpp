@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/report.hpp"
+#include "mpm/definition/report.hpp"
 #include "mpm_ros/csv/csv_tables.hpp"
 
 namespace mpm_ros {

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "mpm/advice/scene_warnings.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/scene/scene_warnings.hpp"
-#include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/message/stamps.hpp"
-#include "mpm_ros/run/bag_recorder.hpp"
+#include "mpm_ros/record/bag_recorder.hpp"
+#include "mpm_ros/record/run_outputs.hpp"
 #include "mpm_ros/run/budget_watch.hpp"
-#include "mpm_ros/run/run_outputs.hpp"
 
 namespace mpm_ros {
 

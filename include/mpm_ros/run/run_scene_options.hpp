@@ -6,9 +6,9 @@
 
 #include "mpm/kernel/isa.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm_ros/run/bag_recorder.hpp"
+#include "mpm_ros/record/bag_recorder.hpp"
+#include "mpm_ros/record/run_outputs.hpp"
 #include "mpm_ros/run/rerun.hpp"
-#include "mpm_ros/run/run_outputs.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 
 namespace mpm_ros {

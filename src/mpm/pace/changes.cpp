@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "mpm/math/dimension.hpp"
-#include "mpm/simulation/method_rules.hpp"
+#include "mpm/rules/method_rules.hpp"
 
 namespace mpm::pace {
 

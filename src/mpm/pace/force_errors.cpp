@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "mpm/simulation/method_text.hpp"
+#include "mpm/rules/method_text.hpp"
 
 namespace mpm::pace {
 

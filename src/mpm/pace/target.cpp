@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "mpm/implicit/implicit_step.hpp"
-#include "mpm/simulation/method_rules.hpp"
-#include "mpm/simulation/method_text.hpp"
+#include "mpm/rules/method_rules.hpp"
+#include "mpm/rules/method_text.hpp"
 
 namespace mpm::pace {
 

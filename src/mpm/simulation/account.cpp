@@ -7,7 +7,7 @@
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/ranks/of_all.hpp"
-#include "mpm/simulation/method_rules.hpp"
+#include "mpm/rules/method_rules.hpp"
 #include "state.hpp"
 
 namespace mpm {

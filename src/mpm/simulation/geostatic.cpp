@@ -18,11 +18,11 @@
 #include <functional>
 #include <optional>
 
-#include "initial.hpp"
+#include "mpm/modules/run_parts.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/ranks/of_all.hpp"
-#include "mpm/simulation/run_parts.hpp"
-#include "particle_start.hpp"
+#include "mpm/start/initial.hpp"
+#include "mpm/start/particle_start.hpp"
 #include "state.hpp"
 
 namespace mpm {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "initial.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/ranks/of_all.hpp"
-#include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/rules/geometry_rules.hpp"
+#include "mpm/start/initial.hpp"
 #include "state.hpp"
 
 namespace mpm {

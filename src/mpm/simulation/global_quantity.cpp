@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "mpm/math/nearest.hpp"
+#include "mpm/modules/shipped_modules.hpp"
 #include "mpm/shape/ring.hpp"
-#include "shipped_modules.hpp"
 #include "state.hpp"
 
 namespace mpm {

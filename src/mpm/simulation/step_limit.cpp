@@ -13,9 +13,9 @@
 
 #include "mpm/implicit/implicit_step.hpp"
 #include "mpm/loop/loop.hpp"
+#include "mpm/modules/shipped_modules.hpp"
 #include "mpm/ranks/of_all.hpp"
 #include "mpm/shape/domain_shear.hpp"
-#include "shipped_modules.hpp"
 #include "state.hpp"
 
 namespace mpm {

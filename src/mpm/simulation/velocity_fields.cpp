@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "mpm/contact/thin_tool.hpp"
+#include "mpm/definition/definition.hpp"
+#include "mpm/definition/layout.hpp"
 #include "mpm/math/dimension.hpp"
-#include "mpm/simulation/layout.hpp"
-#include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 namespace {

@@ -2,10 +2,10 @@
 // that thin tools divide, and more for one that cracks divide (grid/field_map.hpp). Private to this folder.
 #pragma once
 
+#include "mpm/definition/definition.hpp"
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/grid/node_choice.hpp"
-#include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mpm/scene/feasible.hpp"
-#include "mpm/scene/memory.hpp"
+#include "mpm/advice/feasible.hpp"
+#include "mpm/advice/memory.hpp"
 #include "mpm/scene/scene_text.hpp"
-#include "mpm/scene/source.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/sweep/plan.hpp"
+#include "mpm/yaml/source.hpp"
 
 namespace mpm::sweep {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mpm/scene/reader.hpp"
 #include "mpm/sweep/draw.hpp"
+#include "mpm/yaml/reader.hpp"
 
 namespace mpm::sweep {
 

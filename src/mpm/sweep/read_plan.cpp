@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "mpm/math/input_file.hpp"
-#include "mpm/scene/reader.hpp"
 #include "mpm/sweep/plan.hpp"
+#include "mpm/yaml/reader.hpp"
 #include "plan_values.hpp"
 
 namespace mpm::sweep {

@@ -9,7 +9,7 @@
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
-#include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/record/output_names.hpp"
 
 namespace mpm_ros {
 

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "mpm/simulation/checkpoint.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/simulation/projected.hpp"
 #include "mpm_ros/command/frame_follower.hpp"
 #include "mpm_ros/message/topics.hpp"

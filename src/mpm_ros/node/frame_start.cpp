@@ -5,7 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "mpm/scene/scene_text.hpp"
-#include "mpm/scene/source.hpp"
+#include "mpm/yaml/source.hpp"
 
 namespace mpm_ros {
 

@@ -8,8 +8,8 @@
 
 #include <cstdio>
 
-#include "mpm/scene/height_topic.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm/terrain/height_topic.hpp"
 #include "mpm_ros/message/height_map.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/math/json_text.hpp"
-#include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/record/output_names.hpp"
 #include "mpm_ros/run/run_files.hpp"
 
 namespace mpm_ros {

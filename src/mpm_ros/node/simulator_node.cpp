@@ -9,11 +9,11 @@
 #include <thread>
 #include <utility>
 
-#include "mpm/scene/target_record.hpp"
+#include "mpm/advice/target_record.hpp"
+#include "mpm_ros/aim/aim.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/neighbours.hpp"
 #include "mpm_ros/node/node_run.hpp"
-#include "mpm_ros/run/aim.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "mpm/simulation/method_rules.hpp"
+#include "mpm/rules/method_rules.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/report/report_cloud.hpp"

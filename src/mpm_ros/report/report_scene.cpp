@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "mpm/math/lanes.hpp"
+#include "mpm/rules/method_text.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/simulation/method_text.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm_ros {

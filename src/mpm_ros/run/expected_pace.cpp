@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <new>
 
+#include "mpm/advice/target_record.hpp"
 #include "mpm/pace/kept_costs.hpp"
-#include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "mpm_ros/aim/scene_rehearsal.hpp"
 #include "mpm_ros/run/budget_watch.hpp"
-#include "mpm_ros/run/scene_rehearsal.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "mpm/scene/explain.hpp"
-#include "mpm/scene/feasible.hpp"
-#include "mpm_ros/run/aim.hpp"
+#include "mpm/advice/explain.hpp"
+#include "mpm/advice/feasible.hpp"
+#include "mpm_ros/aim/aim.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"

@@ -8,12 +8,12 @@
 #include <new>
 #include <utility>
 
+#include "mpm/advice/feasible.hpp"
+#include "mpm/advice/resumed_scene.hpp"
 #include "mpm/implicit/sweep_momentum.hpp"
-#include "mpm/scene/feasible.hpp"
-#include "mpm/scene/resumed_scene.hpp"
+#include "mpm_ros/record/output_names.hpp"
+#include "mpm_ros/record/together.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
-#include "mpm_ros/run/output_names.hpp"
-#include "mpm_ros/run/together.hpp"
 
 namespace mpm_ros {
 namespace {

@@ -1,7 +1,7 @@
 #include "mpm_ros/run/run_files.hpp"
 
+#include "mpm_ros/record/scene_files.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
-#include "mpm_ros/run/scene_files.hpp"
 
 namespace mpm_ros {
 

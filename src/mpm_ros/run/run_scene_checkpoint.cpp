@@ -12,15 +12,15 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/advice/resumed_scene.hpp"
+#include "mpm/advice/target_record.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/math/json_text.hpp"
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/ranks/of_all.hpp"
-#include "mpm/scene/resumed_scene.hpp"
-#include "mpm/scene/target_record.hpp"
-#include "mpm/scene/units.hpp"
-#include "mpm/simulation/checkpoint.hpp"
-#include "mpm_ros/run/together.hpp"
+#include "mpm/yaml/units.hpp"
+#include "mpm_ros/record/together.hpp"
 
 namespace mpm_ros {
 

@@ -11,8 +11,8 @@
 
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
-#include "mpm/scene/units.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "mpm/yaml/units.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 
 namespace mpm_ros {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/ranks/of_all.hpp"
-#include "mpm/simulation/method_text.hpp"
+#include "mpm/rules/method_text.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "mpm/scene/units.hpp"
 #include "mpm/sweep/plan.hpp"
+#include "mpm/yaml/units.hpp"
 
 namespace mpm_ros {
 namespace {

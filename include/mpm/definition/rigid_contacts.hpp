@@ -1,0 +1,23 @@
+// The laws of contact of every rigid body against every deformable one. Private to this folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpm/definition/definition.hpp"
+#include "mpm/particles/particle_set.hpp"
+
+namespace mpm {
+
+/// The law of a rigid body against a deformable one: that of the pair, or where the scene names none the body's own
+/// friction.
+ContactLaw rigid_contact_law(const SimulationDefinition& definition, const RigidBodyDefinition& body,
+                             const std::string& deformable);
+
+bool same_law(const ContactLaw& a, const ContactLaw& b);
+
+/// Laws of every rigid body against every set; the sets of a body together.
+std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definition,
+                                           const std::vector<ParticleSet>& sets);
+
+}  // namespace mpm

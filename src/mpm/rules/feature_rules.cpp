@@ -1,0 +1,271 @@
+#include "mpm/rules/feature_rules.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mpm/contact/thin_tool.hpp"
+#include "mpm/transport/pore_water.hpp"
+
+namespace mpm {
+namespace {
+
+using Found = std::optional<std::string>;
+
+Found found_if(bool has) { return has ? Found("") : std::nullopt; }
+
+template <class List, class Test>
+Found named_in(const List& list, Test&& test) {
+  const auto found = std::find_if(list.begin(), list.end(), test);
+  return found == list.end() ? std::nullopt : Found(fmt::format("'{}'", found->name));
+}
+
+Found wall_of(const SimulationDefinition& d, WallKind kind) {
+  for (std::size_t w = 0; w < d.walls.size(); ++w) {
+    if (d.walls[w].kind == kind) return kWallNames[w];
+  }
+  return std::nullopt;
+}
+
+/// The material of a body; before bodies are built there is none.
+Found oblique_biot(const SimulationDefinition& d) {
+  const QuantityDefinition* pores = d.transport.find(Transported::pore_pressure);
+  if (pores == nullptr) return std::nullopt;
+  for (std::size_t m = 0; m < std::min(d.materials.size(), pores->materials.size()); ++m) {
+    const auto is_of = [&](const DeformableBody& body) { return body.material == d.materials[m].name; };
+    if (is_isotropic(pores->materials[m].biot) || std::none_of(d.bodies.begin(), d.bodies.end(), is_of)) continue;
+    return fmt::format("'{}'", d.materials[m].name);
+  }
+  return std::nullopt;
+}
+
+Found periodic_axis(const SimulationDefinition& d) {
+  const Found face = wall_of(d, WallKind::periodic);
+  return face ? Found(face->substr(0, 1)) : face;
+}
+
+bool in_pair(const SimulationDefinition& d, const std::string& tool) {
+  const auto& pairs = d.contact.pairs;
+  return std::any_of(pairs.begin(), pairs.end(), [&](const PairDefinition& pair) { return pair.second == tool; });
+}
+
+/// A body that has a law with another one, for which they have velocity fields of their own.
+Found body_with_law(const SimulationDefinition& d) {
+  for (const PairDefinition& pair : d.contact.pairs) {
+    const auto is_tool = [&](const auto& body) { return body.name == pair.second; };
+    if (std::none_of(d.rigid_bodies.begin(), d.rigid_bodies.end(), is_tool)) return fmt::format("'{}'", pair.first);
+  }
+  return named_in(d.bodies, [&](const DeformableBody& body) { return body.field != d.bodies.front().field; });
+}
+
+/// True for more than one constant friction. A tool that is filled with particles is met as another body is.
+bool has_law(const SimulationDefinition& d, const RigidBodyDefinition& tool) {
+  if (tool.particles) return false;
+  return in_pair(d, tool.name) || tool.friction.static_coefficient >= 0.0 || tool.friction.adhesion != 0.0;
+}
+
+/// Words and key of a feature, and how it is found.
+struct Entry {
+  Feature feature;
+  const char* name;
+  const char* key;
+  Found (*find)(const SimulationDefinition&, int ranks);
+};
+
+using D = const SimulationDefinition&;
+
+// In the order of Feature.
+constexpr std::array<Entry, kFeatures> kEntries = {{
+    {Feature::absorbing_faces, "absorbing faces", "boundaries",
+     [](D d, int) { return wall_of(d, WallKind::absorbing); }},
+    {Feature::apic, "apic", "method.transfer",
+     [](D d, int) { return found_if(d.method.transfer.kind == TransferKind::apic); }},
+    {Feature::average_dilatation, "averaged dilatation", "method.average_dilatation",
+     [](D d, int) { return found_if(d.method.average_dilatation); }},
+    {Feature::average_stress, "averaged stress", "method.average_stress",
+     [](D d, int) { return found_if(d.method.average_stress.value_or(false)); }},
+    {Feature::body_laws, "laws of contact between deformable bodies", "contact.pairs",
+     [](D d, int) { return body_with_law(d); }},
+    {Feature::conditions, "velocity conditions", "boundaries.conditions",
+     [](D d, int) { return found_if(!d.conditions.empty()); }},
+    {Feature::contact_at_nodes, "contact at nodes", "contact.method",
+     [](D d, int) { return found_if(d.contact.method == ContactMethod::nodes); }},
+    {Feature::contact_at_points, "contact of tools at points", "contact.method",
+     [](D d, int) { return found_if(d.contact.method == ContactMethod::points && !d.rigid_bodies.empty()); }},
+    {Feature::cracks, "cracks", "cracks", [](D d, int) { return found_if(d.cracks.any()); }},
+    {Feature::damping, "damping", "method.damping", [](D d, int) { return found_if(d.method.damping.any()); }},
+    {Feature::divided_bodies, "bodies that a tool divides", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return !body.divides.empty(); }); }},
+    {Feature::free_bodies, "free bodies", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.free.has_value(); }); }},
+    {Feature::implicit_steps, "implicit steps", "method.update",
+     [](D d, int) { return found_if(d.method.update == UpdateScheme::implicit); }},
+    {Feature::leaving, "particles that leave the grid", "grid.leave",
+     [](D d, int) { return found_if(d.grid.leave_limit > 0); }},
+    {Feature::line, "a line", "geometry", [](D d, int) { return found_if(d.geometry == GeometryKind::line); }},
+    {Feature::loads, "loads", "loads",
+     [](D d, int) { return found_if(!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()); }},
+    {Feature::oblique_biot, "a Biot coefficient that differs between directions", "transport.pore_pressure",
+     [](D d, int) { return oblique_biot(d); }},
+    {Feature::particle_damping, "damping of the particles' velocity", "method.damping",
+     [](D d, int) { return found_if(d.method.damping.in_update()); }},
+    {Feature::particle_tools, "rigid bodies made of particles", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.particles; }); }},
+    {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, int) { return periodic_axis(d); }},
+    {Feature::plane_stress, "plane stress", "geometry",
+     [](D d, int) { return found_if(d.geometry == GeometryKind::plane_stress); }},
+    {Feature::point_particles, "particles that are points (dirac)", "method.shape",
+     [](D d, int) { return found_if(traits_of(d.method.shape).point()); }},
+    {Feature::pore_pressure, "water in pores", "transport.pore_pressure",
+     [](D d, int) { return found_if(d.transport.find(Transported::pore_pressure) != nullptr); }},
+    {Feature::ranks, "several processes", "method.update", [](D, int ranks) { return found_if(ranks > 1); }},
+    {Feature::rings, "a ring that opens", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.inner_radius > 0.0; }); }},
+    {Feature::sleep, "sleep", "sleep", [](D d, int) { return found_if(d.sleep.has_value()); }},
+    {Feature::sleep_damping, "damping of what falls asleep", "sleep.damping",
+     [](D d, int) { return found_if(d.sleep && d.sleep->damping > 0.0); }},
+    {Feature::solid, "a solid scene", "geometry", [](D d, int) { return found_if(d.geometry == GeometryKind::solid); }},
+    {Feature::thin_tools, "thin tools, whose sides have velocity fields of their own", "rigid_bodies",
+     [](D d, int) {
+       // With implicit steps the sides share nodes unless the scene says otherwise.
+       const bool shared = d.method.update == UpdateScheme::implicit;
+       return named_in(d.rigid_bodies, [&](const auto& body) {
+         return shared || !body.surface ? body.sides == Sides::two : has_sides(body, d.geometry, d.smallest_cell());
+       });
+     }},
+    {Feature::tool_heat, "heat that a tool exchanges", "transport.temperature.tools",
+     [](D d, int) {
+       const QuantityDefinition* heat = d.transport.find(Transported::temperature);
+       return heat == nullptr || heat->tools.empty() ? std::nullopt : Found(fmt::format("'{}'", heat->tools[0].body));
+     }},
+    {Feature::tool_laws, "a tool's adhesion, friction at rest or law of its own with a body", "rigid_bodies",
+     [](D d, int) { return named_in(d.rigid_bodies, [&](const auto& body) { return has_law(d, body); }); }},
+    {Feature::transport, "transport", "transport", [](D d, int) { return found_if(!d.transport.quantities.empty()); }},
+}};
+
+constexpr bool in_order() {
+  for (int i = 0; i < kFeatures; ++i) {
+    if (kEntries[i].feature != static_cast<Feature>(i)) return false;
+  }
+  return true;
+}
+static_assert(in_order());
+
+const Entry& entry(Feature feature) { return kEntries[static_cast<std::size_t>(feature)]; }
+
+constexpr const char* kOneOut = "leave one of the two out";
+constexpr const char* kExplicit = "leave it out, or use method.update: usavg";
+
+}  // namespace
+
+const std::vector<FeatureRule>& feature_rules() {
+  static const std::vector<FeatureRule> kRules = {
+      {Feature::sleep, Feature::loads, "loads act on material wherever it is, and sleep does not know them", kOneOut},
+      {Feature::sleep, Feature::conditions, "conditions move material wherever it is, and sleep does not know them",
+       kOneOut},
+      {Feature::sleep, Feature::average_dilatation, "averages need the neighbours of every block", kOneOut},
+      {Feature::sleep, Feature::cracks, "material asleep is not stepped, and cracks do not know which is", kOneOut},
+      {Feature::sleep, Feature::transport, "material asleep is not stepped, and transport goes on in it", kOneOut},
+      {Feature::cracks, Feature::line, "a crack is a line in a plane",
+       "write geometry: plane_strain, plane_stress or axisymmetric"},
+      {Feature::cracks, Feature::solid, "a crack is a line in a plane, and would be a surface here",
+       "write geometry: plane_strain, plane_stress or axisymmetric"},
+      {Feature::cracks, Feature::implicit_steps, "implicit steps have one velocity at a node", kExplicit},
+      {Feature::cracks, Feature::periodic_axes, "a crack does not go on across their faces",
+       "write faces such as x_min: slip"},
+      {Feature::cracks, Feature::particle_tools, "the nodes of such a body have no side of a crack",
+       "leave out its normals: particles"},
+      {Feature::cracks, Feature::free_bodies,
+       "tools meet cracked material at nodes, and contact at nodes does not move a body", kOneOut},
+      {Feature::cracks, Feature::thin_tools, "cracks do not know the fields of a tool's two sides",
+       "write sides: one for it"},
+      {Feature::cracks, Feature::average_stress, "a cell would join the two sides of a crack", "leave the key out"},
+      {Feature::cracks, Feature::contact_at_points, "points do not see on which side of a crack material is",
+       "write contact.method: nodes, or leave it out"},
+      {Feature::average_dilatation, Feature::line, "a line has one strain, and nothing in it locks", "leave it out"},
+      {Feature::average_dilatation, Feature::plane_stress, "the thickness follows there, and nothing locks",
+       "leave it out, or use plane_strain"},
+      {Feature::average_stress, Feature::line, "a line has one strain, and nothing in it locks", "leave it out"},
+      {Feature::average_stress, Feature::plane_stress, "the thickness follows there, and nothing locks",
+       "leave it out, or use plane_strain"},
+      {Feature::apic, Feature::point_particles,
+       "apic needs the inverse of sum S (x_i - x_p)(x_i - x_p), which a point on a line of the grid does not have",
+       "use another shape, such as ugimp, or transfer {xpic: 2}"},
+      {Feature::particle_damping, Feature::apic,
+       "apic keeps a part of the motion in a matrix that this damping does not reach",
+       "use {grid: 20 1/s, placement: force}, with feedback of the grid, or transfer flip"},
+      {Feature::absorbing_faces, Feature::pore_pressure,
+       "the faces absorb the waves of dry material, and those of wet material are faster",
+       "make the face slip or fixed, farther away"},
+      {Feature::pore_pressure, Feature::plane_stress, "a law there has no effective stress across the plate",
+       "write geometry: plane_strain"},
+      {Feature::average_dilatation, Feature::oblique_biot, "the mean of a cell has one coefficient for all directions",
+       kOneOut},
+      {Feature::free_bodies, Feature::contact_at_nodes, "contact at nodes does not move a body",
+       "leave out contact.method, or write points"},
+      {Feature::free_bodies, Feature::particle_tools, "a free body is met at points of the material's surface",
+       "leave out normals: particles"},
+      {Feature::free_bodies, Feature::rings, "a ring that opens is not rigid", "write another shape"},
+      {Feature::tool_laws, Feature::contact_at_nodes, "contact at nodes has one constant friction for a tool",
+       "leave out contact.method, or write points"},
+      {Feature::tool_heat, Feature::contact_at_nodes, "at nodes no area of contact is known",
+       "leave out contact.method, or write points"},
+      {Feature::tool_heat, Feature::particle_tools, "at nodes no area of contact is known",
+       "leave out normals: particles"},
+      {Feature::line, Feature::implicit_steps, "implicit steps are made for solid, plane_strain and axisymmetric",
+       "use method.update: usavg"},
+      {Feature::plane_stress, Feature::implicit_steps,
+       "implicit steps are made for solid, plane_strain and axisymmetric", "use method.update: usavg"},
+      {Feature::average_dilatation, Feature::implicit_steps,
+       "implicit steps have one stress in a cell, which does not lock", "leave it out"},
+      {Feature::average_stress, Feature::implicit_steps, "implicit steps have one stress in a cell as it is",
+       "leave it out"},
+      {Feature::absorbing_faces, Feature::implicit_steps, "implicit steps have no waves to absorb",
+       "write fixed or slip"},
+      {Feature::particle_tools, Feature::implicit_steps, "implicit steps meet bodies at points of their surface",
+       "leave normals: particles out"},
+      {Feature::divided_bodies, Feature::implicit_steps,
+       "implicit steps have one velocity at a node, so that nothing is divided",
+       "leave divides out, or use method.update: usavg"},
+      {Feature::thin_tools, Feature::implicit_steps, "with implicit steps the two sides of a body share nodes",
+       "write sides: one"},
+      {Feature::contact_at_nodes, Feature::implicit_steps, "implicit steps meet bodies at points of their surface",
+       "leave it out"},
+      {Feature::damping, Feature::implicit_steps, "implicit steps have none", "leave it out"},
+      {Feature::body_laws, Feature::implicit_steps, "with implicit steps bodies move as one where they meet",
+       "leave the pair out, or use method.update: usavg"},
+      {Feature::sleep_damping, Feature::implicit_steps, "implicit steps have no such damping", kExplicit},
+      {Feature::transport, Feature::implicit_steps, "implicit steps do not have transport yet", kExplicit},
+      {Feature::leaving, Feature::implicit_steps, "implicit steps do not let particles leave yet", kExplicit},
+      {Feature::ranks, Feature::implicit_steps, "implicit steps run in one process",
+       "start one process, or write method.update: usavg, also where method: auto has chosen them"}};
+  return kRules;
+}
+
+const char* feature_name(Feature feature) { return entry(feature).name; }
+const char* feature_key(Feature feature) { return entry(feature).key; }
+
+std::optional<std::string> find_feature(Feature feature, const SimulationDefinition& definition, int ranks) {
+  return entry(feature).find(definition, ranks);
+}
+
+std::optional<MethodFault> feature_fault(const SimulationDefinition& definition, int ranks,
+                                         std::optional<Feature> coming) {
+  const auto find = [&](Feature feature) {
+    return feature == coming ? Found("") : find_feature(feature, definition, ranks);
+  };
+  for (const FeatureRule& rule : feature_rules()) {
+    const Found own = find(rule.feature);
+    if (!own) continue;
+    const Found other = find(rule.beside);
+    if (!other) continue;
+    const auto named = [](const std::string& who) { return who.empty() ? who : " (" + who + ")"; };
+    return MethodFault{feature_key(rule.feature),
+                       fmt::format("{}{} and {}{} do not go together: {}; {}", feature_name(rule.feature), named(*own),
+                                   feature_name(rule.beside), named(*other), rule.reason, rule.remedy)};
+  }
+  return {};
+}
+
+}  // namespace mpm

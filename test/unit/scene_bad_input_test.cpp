@@ -118,9 +118,9 @@ TEST(SceneBadInput, WrongUnitsAndValues) {
   expect_refused(3, "  cell: .nan", "grid.cell: '.nan' is not a number;");
   expect_refused(3, "  cell: 1e999", "grid.cell: '1e999' is not a number;");
   expect_refused(3, "  cell:", "grid.cell: has no value;");
-  expect_refused(6, "time: {end: 1, cfl: 1}", "time.cfl: 1 is not below 1");
+  expect_refused(6, "time: {end: 1, cfl: 1}", "time.cfl: '1' is not below 1");
   expect_refused(6, "time: {end: 1 kg}", "time.end: '1 kg' is a mass, but a time is expected;");
-  expect_refused(6, "time: {end: -1}", "time.end: '-1' is not greater than 0;");
+  expect_refused(6, "time: {end: -1}", "time.end: '-1' is less than 1e-07 s;");
   expect_refused(11, "gravity: [0, -9.81]", "gravity: found 2 components; write three components, [x, y, z]");
   expect_refused(11, "gravity: -9.81", "gravity: found one value; write three components");
   expect_refused(10, "  transfer: {flip: 1.5}", "method.transfer.flip: '1.5' is not a fraction;");
@@ -129,13 +129,13 @@ TEST(SceneBadInput, WrongUnitsAndValues) {
   expect_refused(10, "  gradient_terms: 0",
                  "method.gradient_terms: 0 is less than 1; write a whole number from 1 to 12");
   expect_refused(10, "  gradient_terms: 2.5", "method.gradient_terms: '2.5' is not a whole number;");
-  expect_refused(10, "  precision: half", "method.precision: 'half' is not known; write one of double, single");
+  expect_refused(10, "  precision: half", "method.precision: 'half' is not known; write one of single, double");
   expect_refused(10, "  damping: -1", "method.damping: '-1' is less than 0;");
   expect_refused(27, "    motion: {velocity: [0, 0, \"-0.1*tt\"]}",
                  "rigid_bodies.ball.motion.velocity.2: expression '-0.1*tt': unknown name 'tt'");
   expect_refused(26, "    pose: {quaternion: [0, 0, 0, 0]}",
                  "rigid_bodies.ball.pose.quaternion: its length is 0, not 1;");
-  expect_refused(28, "contact: {friction: -0.1}", "contact.friction: -0.1 is less than 0;");
+  expect_refused(28, "contact: {friction: -0.1}", "contact.friction: '-0.1' is less than 0;");
   expect_refused(28, "contact: {friction: sticky}", "contact.friction: expression 'sticky': unknown name 'sticky';");
   expect_refused(19, "  - name: a block", "bodies.a block.name: 'a block' is not a name;");
 }
@@ -167,7 +167,8 @@ TEST(SceneBadInput, SoilConstantsOutOfRange) {
   // Without a unit an angle is in radians, and 30 is beyond a right angle.
   const std::string found =
       refusal(with_line(17, "    poisson: 0.3\n    friction_angle: 30"), {"materials.soft.law=drucker_prager"});
-  EXPECT_EQ(found.find("bad.yaml:18: materials.soft.friction_angle: friction angle is 1718.87 degrees"), 0U) << found;
+  EXPECT_EQ(found.find("bad.yaml:18: materials.soft.friction_angle: '30', 1718.87 deg, is not below 90 deg"), 0U)
+      << found;
 }
 
 TEST(SceneBadInput, MissingKeysAndNamesTwice) {

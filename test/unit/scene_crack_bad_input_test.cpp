@@ -204,7 +204,7 @@ TEST(SceneCrackBadInput, TipsThatCannotGrow) {
   expect_crack_refused(27, "  length: 0.3", "cracks.length: steps of 0.3 cells,", "at least time_factor");
   expect_crack_refused(27, "  heating: 0.5", "cracks.heating: heat needs a temperature;",
                        "write transport: {temperature: {}}");
-  expect_crack_refused(27, "  heating: 2", "cracks.heating: a part of the energy released, 1 at most");
+  expect_crack_refused(27, "  heating: 2", "cracks.heating: '2' is more than 1; write a number from 0 to 1");
 }
 
 TEST(SceneCrackBadInput, JIsOfSolids) {
@@ -227,8 +227,9 @@ TEST(SceneCrackBadInput, JIsOfSolids) {
 }
 
 TEST(SceneCrackBadInput, ContoursOfJ) {
-  expect_crack_refused(25, "  contour: {size: 1}", "cracks.contour.size: 1 is too near the tip,", "2 cells or more");
-  expect_crack_refused(25, "  contour: {terms: 3}", "cracks.contour.terms: 3; write 1 or 2");
+  expect_crack_refused(25, "  contour: {size: 1}", "cracks.contour.size: 1 is less than 2;", "of 2 or more");
+  expect_crack_refused(25, "  contour: {terms: 3}",
+                       "cracks.contour.terms: 3 is more than 2; write a whole number from 1 to 2");
   expect_crack_refused(25, "  contour: {form: broberg}",
                        "cracks.contour.form: the two forms differ about an axis alone;");
   expect_crack_refused(25, "  contour: {energy: nodes}", "cracks.contour.energy: 'nodes' is not known;");
@@ -242,7 +243,7 @@ TEST(SceneCrackBadInput, ContoursOfJ) {
 
 TEST(SceneCrackBadInput, FacesAndTractions) {
   expect_crack_refused(22, "      faces: open", "cracks.list.notch.faces: 'open' is not known; write one of ignored");
-  expect_crack_refused(22, "      faces: {friction: -1}", "cracks.list.notch.faces.friction: -1 is less than 0;");
+  expect_crack_refused(22, "      faces: {friction: -1}", "cracks.list.notch.faces.friction: '-1' is less than 0;");
   expect_crack_refused(22, "      faces: {position: 0.8}", "cracks.list.notch.faces.position: a distance");
   expect_crack_refused(22, "      faces: {law: interface, tangential: 1e9}",
                        "cracks.list.notch.faces: the key 'opened' is missing;");
@@ -306,7 +307,8 @@ TEST(SceneCrackBadInput, ConstantsOfMaterials) {
   expect_crack_refused(10, "    fracture: {exponents: [2]}", at + ".exponents: write two,");
   expect_crack_refused(10, "    fracture: {way: [0, 0]}", at + ".way: a way has a length;");
   expect_crack_refused(10, "    fracture: {start_time: -1}", at + ".start_time: '-1' is less than 0;");
-  expect_crack_refused(10, "    fracture: {growth: {criterion: 3}, speed: 2, j_ic: 8}", at + ".speed: ", "1 at most");
+  expect_crack_refused(10, "    fracture: {growth: {criterion: 3}, speed: 2, j_ic: 8}",
+                       at + ".speed: ", "is more than 1");
   expect_crack_refused(10, "    fracture: {K_ic: 1}", at + ".K_ic: unknown key 'K_ic';", "'k_ic'");
   std::string text = spoilt_scene(0, "");
   text = text.substr(0, text.find("cracks:"));

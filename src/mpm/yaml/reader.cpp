@@ -126,7 +126,9 @@ void Value::check(double value, const Dimension& dimension, const Range& range) 
     fail(fmt::format("'{}' {}; write {}{}, such as {}", text(), fault, range.with_least ? "0 or " : "", noun,
                      example(dimension)));
   }
-  fail(fmt::format("'{}' {}; write {} {}", text(), fault, dimension == kPlain ? "a number" : noun,
+  // A plain angle is in radians, which is seldom meant.
+  const std::string degrees = dimension == kAngle ? fmt::format(", {},", quantity_text(value, kAngle)) : "";
+  fail(fmt::format("'{}'{} {}; write {} {}", text(), degrees, fault, dimension == kPlain ? "a number" : noun,
                    range.words(dimension)));
 }
 

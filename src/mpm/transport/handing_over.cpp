@@ -60,8 +60,7 @@ void TransportedField::finish(double start, double dt, bool sees) {
     const ParticleSet& set = parts_.sets[s];
     PaddedArray<double>& held = carried(static_cast<int>(s));
     const double* change = scratch_[s][0].data();
-    sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-    for_particle_groups("transport: changes", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
+    const auto take = [&](int first, int last, double& sum) {
       double capacity[kGainGroup], j[kGainGroup];
       find_capacities(static_cast<int>(s), first, last, capacity);
       if (by_volume) find_volume_ratios(set, parts_.geometry, first, last, j);
@@ -69,10 +68,10 @@ void TransportedField::finish(double start, double dt, bool sees) {
         const double c = capacity[p - first];
         const double gain = by_volume ? change[p] * j[p - first] / (parts_.densities[s] * c) : change[p];
         held[p] += gain;
-        sums_[group] += set.mass_of(p) * c * gain;
+        sum += set.mass_of(p) * c * gain;
       }
-    });
-    gained_ = std::accumulate(sums_.begin(), sums_.end(), gained_);
+    };
+    gained_ = sum_groups("transport: changes", set, parts_.threads, sums_, gained_, take);
   }
   for (std::size_t s = 0; s < sets; ++s) taken_[s] = {values(static_cast<int>(s)).data()};
   for (std::size_t f = 0; f < fields && sees; ++f) transfer_->gather(static_cast<int>(f), nodes_[f].value, taken_);

@@ -7,6 +7,7 @@
 #include "mpm/grid/for_nodes.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/particles/for_particles.hpp"
+#include "visits.hpp"
 
 namespace mpm {
 namespace {
@@ -136,9 +137,12 @@ void PoreWater::push_rows(int set, int axis) {
   const PaddedArray<double>& pressure = pressure_.carried(set);
   by_axis_[set] = {};
   for (int c = 0; c < layout.dim(); ++c) {
-    find_volume_ratios(of, parts_.geometry, 0, of.awake(), push_[set][c].data());
+    double* push = push_[set][c].data();
     const double part = row[layout.axis(c)] / parts_.densities[set];
-    for (int p = 0; p < of.awake(); ++p) push_[set][c][p] *= part * pressure[p];
+    for_particle_groups("pore water: pressure", of, kGainGroup, parts_.threads, [&](int first, int end, int) {
+      find_volume_ratios(of, parts_.geometry, first, end, push + first);
+      for (int p = first; p < end; ++p) push[p] *= part * pressure[p];
+    });
     by_axis_[set][c] = push_[set][c].data();
   }
 }
@@ -177,8 +181,7 @@ void PoreWater::add_force(StepContext& context) {
     const PaddedArray<double>& pressure = pressure_.carried(static_cast<int>(s));
     double* last = parts_.sets[s].brought[last_[s]].values.data();
     double* push = push_[s][0].data();
-    sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-    for_particle_groups("pore water: pressure", set, kGainGroup, parts_.threads, [&](int first, int end, int g) {
+    const auto press = [&](int first, int end, double& sum) {
       double j[kGainGroup];
       find_volume_ratios(set, parts_.geometry, first, end, j);
       for (int p = first; p < end; ++p) {
@@ -186,11 +189,11 @@ void PoreWater::add_force(StepContext& context) {
         // The mean of the pressure: what the squeeze has made of it counts half.
         const double grown = j[p - first] - last[p];
         const double mean = pressure[p] + 0.5 * part * grown / (j[p - first] * own.capacity(pressure[p]));
-        sums_[g] += set.mass_of(p) * per_mass * part * mean * grown;
+        sum += set.mass_of(p) * per_mass * part * mean * grown;
         last[p] = j[p - first];
       }
-    });
-    work_ = std::accumulate(sums_.begin(), sums_.end(), work_);
+    };
+    work_ = sum_groups("pore water: pressure", set, parts_.threads, sums_, work_, press);
     pushes_[s] = {push};
   }
   if (averaged_) average();

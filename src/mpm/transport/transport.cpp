@@ -51,11 +51,9 @@ void Transport::prepare_expansion() {
 
 template <class Term>
 double Transport::sum_over(const ParticleSet& set, Term&& term) {
-  sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-  for_particle_groups("transport: sums", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
-    for (int p = first; p < last; ++p) sums_[group] += term(p);
+  return sum_groups("transport: sums", set, parts_.threads, sums_, 0.0, [&](int first, int last, double& sum) {
+    for (int p = first; p < last; ++p) sum += term(p);
   });
-  return std::accumulate(sums_.begin(), sums_.end(), 0.0);
 }
 
 // The law takes the new strain at the next look at the stress, which is in this step or, with USF, in the next; the

@@ -152,18 +152,17 @@ void TransportedField::collect() {
       if (!gains_[g]->acts_on(index)) continue;
       const ParticleSet& set = parts_.sets[s];
       PaddedArray<double>&value = values(index), &held = carried(index);
-      sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
-      for_particle_groups("transport: gains", set, kGainGroup, parts_.threads, [&](int first, int last, int group) {
+      const auto take = [&](int first, int last, double& sum) {
         double gain[kGainGroup] = {}, capacity[kGainGroup];
         find_capacities(index, first, last, capacity);
         gains_[g]->take(index, first, last, value.data(), gain);
         for (int p = first; p < last; ++p) {
           value[p] += gain[p - first];
           held[p] += gain[p - first];
-          sums_[group] += set.mass_of(p) * capacity[p - first] * gain[p - first];
+          sum += set.mass_of(p) * capacity[p - first] * gain[p - first];
         }
-      });
-      const double content = std::accumulate(sums_.begin(), sums_.end(), 0.0);
+      };
+      const double content = sum_groups("transport: gains", set, parts_.threads, sums_, 0.0, take);
       gain_accounts_[g].add(content);
       gained_ += content;
     }

@@ -78,7 +78,7 @@ class LayerContact {
   }
 
  private:
-  static using mpm::kPi;
+  static constexpr double kPi = mpm::kPi;
   static constexpr double kLast = 150.0;  ///< largest k a that is summed; the remainder is estimated by its mean
 
   PressedTool pressed(const Eigen::VectorXd& coefficients, double approach) const {

@@ -94,7 +94,9 @@ int main(int argc, char** argv) {
                "tell at the end where the wall time went: seconds, share and calls by name");
   app.add_flag("--list", list, "list the shipped scenes, and exit");
   auto* keys_option =
-      app.add_option("--keys", keys, "print the keys of a section of scenes, of a law, or of all, and exit")
+      app.add_option(
+             "--keys", keys,
+             "print the keys of a section of scenes, such as sleep, of a law, or of all that have a table, and exit")
           ->expected(0, 1);
   app.add_flag("--explain", explain, "report what was chosen for the scene and why, and exit");
   try {

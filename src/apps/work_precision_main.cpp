@@ -1,6 +1,6 @@
 // rosrun mpm_ros work_precision [--quick | --full] [--suite S]… [--method M]… [--out DIR]: measures error against cost
 // of every method. `--suite tool_force` is a suite of its own, of forces on tools, with --problem, --cells, --vary and
-// --set. Wiring only; see mpm/study/work_precision.hpp and mpm/study/tool_force/run.hpp.
+// --set. Wiring only; see benchmark/study/work_precision.hpp and benchmark/study/tool_force/run.hpp.
 //
 // Exit codes: 0 done, 2 bad input.
 #include <CLI/CLI.hpp>

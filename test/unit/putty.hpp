@@ -39,6 +39,9 @@ class Putty : public LawDefaults {
   double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
     return LinearElastic::tangent_wave_speed(tau, j, bulk_, shear_, density_, 0.0);
   }
+  Symmetric3<double> elastic_strain(const StressedPoint& at) const {
+    return LinearElastic::stress_strain(at.cauchy, bulk_, shear_);
+  }
   double density() const { return density_; }
 
  private:

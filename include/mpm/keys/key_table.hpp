@@ -1,4 +1,4 @@
-// A section of a scene as a table of keys. From it come its reading and the errors of that (scene/read_keys.hpp), the
+// A section of a scene as a table of keys. From it come its reading and the errors of that (yaml/reader.hpp), the
 // check of a definition made in C++, and a table of the pages (sections/all_keys.hpp). It stands beside the definition:
 //
 //   const KeyTable<SleepDefinition>& sleep_keys() {

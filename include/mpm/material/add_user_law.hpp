@@ -2,7 +2,7 @@
 // as the library's laws are (law.hpp), so that it can move into the library as it is:
 //
 //   class Foam : public mpm::LawDefaults { … Foam(const mpm::UserLawDefinition& d, double density); … };
-//   const bool added = mpm::add_user_law<Foam>("foam", {{"crush_pressure", kPressure, kPositive}});
+//   const bool added = mpm::add_user_law<Foam>("foam", {{"crush_pressure", mpm::kPressure, mpm::kPositive}});
 //
 //   materials: [{name: pad, density: 100, law: foam, young: 2 MPa, poisson: 0.1, crush_pressure: 40 kPa}]
 //
@@ -10,6 +10,7 @@
 // starts under stress know it. Weak: its functions are called a particle at a time through a pointer, in double
 // precision, so that a step of it takes longer than one of a law of the list; it has no implicit steps; a fluid, a law
 // with a temperature of its own, and one that finds its pressure from J alone have to stand in the list.
+// Its functions are called from several threads at once, and must not throw.
 #pragma once
 
 #include <new>
@@ -63,8 +64,13 @@ struct UserLawOf {
                 "such a law stands in the list of laws");
   static_assert(Own::kImplicit == ImplicitSteps::refused, "implicit steps know the laws of the list alone");
   static_assert(Own::kHistory <= mpm_kernel::kUserHistory);
-  static_assert(Own::kHistory == 0 || (Own::kPlasticStrain == 0 && Own::kPlasticWork == 1),
-                "history begins with the plastic strain and the plastic work; what has none leaves them at zero");
+  static_assert(Own::kPlasticStrain < 0 || (Own::kPlasticStrain == 0 && Own::kPlasticWork == 1),
+                "history begins with the plastic strain and the plastic work; what has none leaves these two at zero");
+  static_assert(!Own::kAveragesStress || (Own::kPlasticStrain == 0 && Own::kStressFrom == StressSource::stress),
+                "what shares its stress has a plastic strain and advances the stress that it had");
+  static_assert(Own::kPlasticStrain < 0 ||
+                    !std::is_same_v<decltype(&Own::elastic_strain), decltype(&LawDefaults::elastic_strain)>,
+                "a law that flows tells the elastic part of its strain");
 
   static const Own& own(const void* law) { return *static_cast<const Own*>(law); }
   static Matrix3<double> matrix(const double (&m)[9]) { return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]}; }
@@ -83,6 +89,8 @@ struct UserLawOf {
   static double wave_speed(const void* law, const mpm_kernel::UserPoint& point) {
     return own(law).wave_speed(matrix(point.f), symmetric(point.tau), point.j);
   }
+  static double diffusivity(const void* law, double j) { return own(law).diffusivity(j); }
+  static double heat_fraction(const void* law) { return own(law).heat_fraction(); }
   static Symmetric3<double> elastic_strain(const void* law, const StressedPoint& at) {
     return own(law).elastic_strain(at);
   }
@@ -91,17 +99,23 @@ struct UserLawOf {
   }
 };
 
+inline LawTraits traits_of_user(LawTraits traits) {
+  traits.listed = false;
+  return traits;
+}
+
 /// Adds a law under the name that scenes give to it. Returns true, so that it can be called before main().
 /// @throws MaterialError as above
 template <class Own>
 bool add_user_law(const std::string& name, std::vector<UserConstant> constants) {
   using Of = UserLawOf<Own>;
-  return add_user_law(UserLawKind{name,
-                                  std::move(constants),
-                                  kTraitsOf<Own>,
-                                  {&Of::update, &Of::elastic_energy, &Of::wave_speed},
-                                  &Of::elastic_strain,
-                                  &Of::make});
+  return add_user_law(
+      UserLawKind{name,
+                  std::move(constants),
+                  traits_of_user(kTraitsOf<Own>),
+                  {&Of::update, &Of::elastic_energy, &Of::wave_speed, &Of::diffusivity, &Of::heat_fraction},
+                  &Of::elastic_strain,
+                  &Of::make});
 }
 
 }  // namespace mpm

@@ -92,7 +92,7 @@ struct DruckerPragerDefinition {
   double friction_angle = 0.0;   ///< [rad], in [0, pi/2)
   double dilation_angle = 0.0;   ///< [rad], in [0, friction_angle]
   double cohesion = 0.0;         ///< [Pa], >= 0
-  double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; negative: the cone's apex
+  double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; -1: the cone's apex
   ConeMatch match = ConeMatch::mohr_coulomb;
   double dilation_limit = kDilationLimit;  ///< most volume gained, over initial volume, at which dilation ends, > 0
   SoilSoftening softening = {};
@@ -106,7 +106,7 @@ struct MohrCoulombDefinition {
   double friction_angle = 0.0;             ///< [rad], in [0, pi/2)
   double dilation_angle = 0.0;             ///< [rad], in [0, friction_angle]
   double cohesion = 0.0;                   ///< [Pa], >= 0
-  double tension_cutoff = -1.0;            ///< largest principal tension [Pa]; negative: the apex
+  double tension_cutoff = -1.0;            ///< largest principal tension [Pa]; -1: the apex
   double dilation_limit = kDilationLimit;  ///< as above
   SoilSoftening softening = {};
 };

@@ -48,6 +48,7 @@ struct LawTraits {
   ImplicitSteps implicit;
   bool flows;            ///< deforms without end: fluids, and what has a plastic strain
   bool own_temperature;  ///< has a temperature in its history
+  bool listed = true;    ///< one of the library's own, whose figures stand in its pages
 
   bool fluid() const { return matter == Matter::liquid || matter == Matter::gas; }
 };

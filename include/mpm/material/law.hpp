@@ -11,8 +11,9 @@
 // The law is chosen once per block and body (kernel/stress.hpp); inside there is no virtual call and no branch on it.
 // update(), wave_speed() and diffusivity() are templates, written once for a number and for a wide register of
 // particles (math/lanes.hpp): instead of branching on a value they select, and skip work that no lane needs. The rest
-// is for single numbers. To add a law: a definition and its name in the list in definition.hpp, a file beside these,
-// and its header below. Others ask what it is by its traits, not by its name.
+// is for single numbers. To add a law: a definition and its name in the list in definition.hpp, its keys in
+// law_keys.hpp, what holds between its constants in material_fault.cpp, a file beside these, and its header below.
+// Others ask what it is by its traits, not by its name.
 #pragma once
 
 #include <string>

@@ -27,6 +27,8 @@ struct UserLawCalls {
   void (*update)(const void* law, UserPoint& point);
   double (*elastic_energy)(const void* law, const UserPoint& point);
   double (*wave_speed)(const void* law, const UserPoint& point);
+  double (*diffusivity)(const void* law, double j);
+  double (*heat_fraction)(const void* law);
 };
 
 }  // namespace mpm_kernel
@@ -53,6 +55,7 @@ class UserLaw : public LawDefaults {
   template <class T, class Matrix, class Symmetric>
   void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
     for (int i = 0; i < lane_count<T>; ++i) {
+      if (!(lane(step.j_old, i) > ScalarOf<T>(0))) continue;  // no particle
       mpm_kernel::UserPoint point;
       put(lane(full(step.du), i), point.du);
       put(lane(full(step.df), i), point.df);
@@ -74,10 +77,21 @@ class UserLaw : public LawDefaults {
   T wave_speed(const Matrix& f, const Symmetric& tau, T j) const {
     T speed(0);
     for (int i = 0; i < lane_count<T>; ++i) {
+      if (!(lane(j, i) > ScalarOf<T>(0))) continue;
       set_lane(speed, i, static_cast<ScalarOf<T>>(calls_.wave_speed(law_.data(), state(f, tau, j, i))));
     }
     return speed;
   }
+  template <class T>
+  T diffusivity(T j) const {
+    T most(0);
+    for (int i = 0; i < lane_count<T>; ++i) {
+      if (!(lane(j, i) > ScalarOf<T>(0))) continue;
+      set_lane(most, i, static_cast<ScalarOf<T>>(calls_.diffusivity(law_.data(), lane(j, i))));
+    }
+    return most;
+  }
+  double heat_fraction() const { return calls_.heat_fraction(law_.data()); }
   Symmetric3<double> elastic_strain(const StressedPoint& at) const;
   double density() const { return density_; }
   const UserLawKind& kind() const { return *kind_; }

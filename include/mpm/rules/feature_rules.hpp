@@ -1,8 +1,9 @@
 // Features of a scene that do not go together, in one table: which two, why, and what to do. It is asked for scenes and
-// for definitions made in C++ alike, and doc/features.md shows it. Two features that stand in no row go together.
+// for definitions made in C++ alike, and doc/features.md shows it.
 //
-// A feature is one that a scene has or has not. Rules on values, such as a direction or a length of step, stand beside
-// what reads them (method_rules.hpp, implicit_rules.hpp, rigid_rules.hpp, geometry_rules.hpp).
+// A feature is one that a scene has or has not. Rules on a value, a material or one body stand beside what reads them
+// (method_rules.hpp, implicit_rules.hpp, rigid_rules.hpp, geometry_rules.hpp, the modules). Two features that stand in
+// no row go together but for these.
 #pragma once
 
 #include <optional>

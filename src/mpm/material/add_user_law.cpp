@@ -28,7 +28,11 @@ KeyTable<UserLawDefinition> keys_of(const UserLawKind& kind) {
   const std::size_t count = kind.constants.size();
   for (std::size_t i = 0; i < count; ++i) {
     const UserConstant& constant = kind.constants[i];
-    KeyText text{constant.otherwise ? fmt::format("{:g}", *constant.otherwise) : kRequired, "constant of the law"};
+    KeyText text{kRequired, "constant of the law"};
+    if (constant.otherwise) {
+      text.fallback = quantity_text(*constant.otherwise, constant.dimension);
+      text.told = text.fallback + ": as the law has it";
+    }
     rows.push_back({{constant.key, std::move(text), constant.dimension, constant.range}, [i, count](User& of) {
                       of.constants.resize(count);
                       return KeyPlace(&of.constants[i]);
@@ -53,6 +57,13 @@ bool add_user_law(UserLawKind kind) {
   for (const UserLawKind* other : user_laws()) taken = taken || other->name == kind.name;
   if (taken) throw MaterialError(fmt::format("a second law '{}'; give it a name of its own", kind.name));
   kind.keys = keys_of(kind);
+  for (const UserConstant& constant : kind.constants) {
+    const std::string fault =
+        constant.otherwise ? constant.range.fault(*constant.otherwise, constant.dimension) : std::string();
+    if (fault.empty()) continue;
+    throw MaterialError(fmt::format("law '{}': {}: its own value {} {}; give it another", kind.name, constant.key,
+                                    quantity_text(*constant.otherwise, constant.dimension), fault));
+  }
   std::vector<std::string> keys = material_keys().names();
   for (const std::string& key : kind.keys.names()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) {

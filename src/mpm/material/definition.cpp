@@ -35,9 +35,9 @@ std::optional<double> friction_angle(const LawDefinition& law) {
 }
 
 std::string law_name(const LawDefinition& law) {
-  if (const auto* own = std::get_if<UserLawDefinition>(&law)) return own->kind->name;
-  if (const auto* own = std::get_if<UserLawDefinition>(&law)) return own->kind->name;
-  return std::visit([](const auto& own) { return own.kName; }, law);
+  const auto* own = std::get_if<UserLawDefinition>(&law);
+  if (own != nullptr && own->kind != nullptr) return own->kind->name;
+  return std::visit([](const auto& listed) { return listed.kName; }, law);
 }
 
 }  // namespace mpm

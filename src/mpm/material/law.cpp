@@ -32,7 +32,8 @@ bool listed_law(const std::string& name) { return has_name(name, std::make_index
 
 LawTraits traits_of(const UserLaw& law) { return law.kind().traits; }
 LawTraits traits_of(const LawDefinition& law) {
-  if (const auto* own = std::get_if<UserLawDefinition>(&law)) return own->kind->traits;
+  const auto* own = std::get_if<UserLawDefinition>(&law);
+  if (own != nullptr && own->kind != nullptr) return own->kind->traits;
   return std::visit([](const auto& own) { return kTraitsOf<typename std::decay_t<decltype(own)>::Law>; }, law);
 }
 

@@ -125,6 +125,10 @@ std::optional<KeyFault> material_fault(const MaterialDefinition& material) {
   const auto out_of_range = [](const auto& law) -> Fault {
     if constexpr (std::is_same_v<std::decay_t<decltype(law)>, UserLawDefinition>) {
       if (law.kind == nullptr) return KeyFault{"law", "it names no law; add one by add_user_law(), and name its kind"};
+      if (law.constants.size() != law.kind->constants.size()) {
+        return KeyFault{"law", fmt::format("it has {} constants and '{}' asks for {}; begin with fresh() of its kind",
+                                           law.constants.size(), law.kind->name, law.kind->constants.size())};
+      }
       return law.kind->keys.fault(law);
     } else {
       return law_keys<std::decay_t<decltype(law)>>().fault(law);

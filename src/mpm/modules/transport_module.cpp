@@ -55,6 +55,12 @@ SurfaceHeat* add_surface_heat(TransportedField& temperature, RunParts& parts) {
     if (body == parts.bodies.end()) {
       throw DefinitionError(fmt::format("transport.temperature.tools: no rigid body is called '{}'", tool.body));
     }
+    if (body->definition().particles) {
+      throw DefinitionError(fmt::format(
+          "transport.temperature.tools: '{}' is made of particles and met at nodes, where no area of contact "
+          "is known; leave out its normals: particles",
+          tool.body));
+    }
     tools[body - parts.bodies.begin()].definition = tool;
   }
   const std::size_t fields = parts.fields.size();

@@ -143,7 +143,9 @@ bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool
   return method.average_stress.value_or(sensible && method.update != UpdateScheme::implicit);
 }
 
-bool closes_energy(const LawTraits& traits) { return traits.matter == Matter::soil && !traits.stiffness_of_pressure; }
+bool closes_energy(const LawTraits& traits) {
+  return traits.listed && traits.matter == Matter::soil && !traits.stiffness_of_pressure;
+}
 
 bool shares_stress(const SimulationDefinition& definition, const DeformableBody& body) {
   const MaterialDefinition& material = find_material(definition, body);

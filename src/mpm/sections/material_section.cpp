@@ -76,33 +76,32 @@ LawDefinition read_law(const Map& map, Scene& scene) {
   return law;
 }
 
-LawDefinition read_user_law(const UserLawKind& kind, const Map& map) {
+LawDefinition read_user_law(const UserLawKind& kind, const Map& map, Scene& scene) {
   UserLawDefinition law = kind.fresh();
   read_keys(map, kind.keys, law);
+  tell_defaults(map, kind.keys, scene);
   return law;
 }
 
 /// The laws of the list, then those that a program has added.
-const std::vector<LawSection>& law_sections() {
-  static const std::vector<LawSection> sections = [] {
-    std::vector<LawSection> list;
-    each_law([&](const auto& law) {
-      using Law = std::decay_t<decltype(law)>;
-      list.push_back({Law::kName, law_keys<Law>().names(), read_law<Law>});
-    });
-    for (const UserLawKind* kind : user_laws()) {
-      list.push_back(
-          {kind->name, kind->keys.names(), [kind](const Map& map, Scene&) { return read_user_law(*kind, map); }});
-    }
-    return list;
-  }();
-  return sections;
+std::vector<LawSection> law_sections() {
+  std::vector<LawSection> list;
+  each_law([&](const auto& law) {
+    using Law = std::decay_t<decltype(law)>;
+    list.push_back({Law::kName, law_keys<Law>().names(), read_law<Law>});
+  });
+  for (const UserLawKind* kind : user_laws()) {
+    list.push_back({kind->name, kind->keys.names(),
+                    [kind](const Map& map, Scene& scene) { return read_user_law(*kind, map, scene); }});
+  }
+  return list;
 }
 
-const LawSection& find_section(const Value& law) {
+LawSection find_section(const Value& law) {
+  const std::vector<LawSection> sections = law_sections();
   std::vector<std::string> names;
-  for (const LawSection& section : law_sections()) names.push_back(section.name);
-  return law_sections()[law.choice(names, kLaterLaws)];
+  for (const LawSection& section : sections) names.push_back(section.name);
+  return sections[law.choice(names, kLaterLaws)];
 }
 
 }  // namespace
@@ -113,7 +112,7 @@ Map material_map(const Value& value, const Map& root) {
   // below.
   const YAML::Node law = value.is_map() ? value.node()["law"] : YAML::Node();
   if (value.is_map() && law && law.IsScalar()) {
-    const LawSection& section = find_section(value.child(law, "law"));
+    const LawSection section = find_section(value.child(law, "law"));
     keys.insert(keys.end(), section.keys.begin(), section.keys.end());
   } else if (value.is_map()) {
     for (const LawSection& section : law_sections()) keys.insert(keys.end(), section.keys.begin(), section.keys.end());

@@ -194,7 +194,7 @@ parameters: {{materials.foam.poisson: {{values: [0.1, 0.2, 0.3, 0.4]}}}}
             self.assertFalse(os.path.exists(self.study))
 
         refused(lambda text: text.replace("foam.young", "foam.yuong"), "bad.yaml:9: run 1", "did you mean 'young'?")
-        refused(lambda text: text.replace("to: 0.4}", "to: 0.7}"), "Poisson's ratio", "bad.yaml:10: run ")
+        refused(lambda text: text.replace("to: 0.4}", "to: 0.7}"), "materials.foam.poisson: ", "bad.yaml:10: run ")
         refused(lambda text: text + "  grid.cell: {values: [0.01, -1]}\n", "bad.yaml:11: run 2, grid.cell = -1: ")
         refused(lambda text: text.replace("time.end: 0.02", "output.particle_fields: [none]\n  time.end: 1"),
                 "bad.yaml:4: run 1, output.particle_fields = [none]: ", "no particle field 'none'")
@@ -295,7 +295,7 @@ parameters:
         self.assertEqual([run.state_hash for run in mpm_ros.Sweep(self.study).runs],
                          [run.state_hash for run in sweep.runs])
         plan["parameters"] = {"materials.foam.poisson": {"values": [0.6]}}
-        with self.assertRaisesRegex(mpm_ros.MpmError, "Poisson's ratio is 0.6") as raised:
+        with self.assertRaisesRegex(mpm_ros.MpmError, "poisson: '0.6' is not below 0.5") as raised:
             mpm_ros.run_sweep(plan, self.path("other"))
         self.assertEqual(raised.exception.exit_code, 2)
         with self.assertRaisesRegex(mpm_ros.MpmError, "not the folder of a sweep"):

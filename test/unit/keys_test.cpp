@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
@@ -10,6 +11,7 @@
 
 #include "mpm/material/law_keys.hpp"
 #include "mpm/math/build_info.hpp"
+#include "mpm/rules/section_keys.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/sections/all_keys.hpp"
 #include "mpm/sleep/sleep_keys.hpp"
@@ -92,6 +94,23 @@ TEST(Keys, AreFoundByTheirSection) {
   EXPECT_EQ(keys_text("sleep"), "sleep (doc/scene/sleep.md)\n\n" + markdown(sleep_keys().page()));
   EXPECT_NE(keys_text("method").find("method.damping.feedback"), std::string::npos);
   EXPECT_THROW(keys_text("slepe"), SceneError);
+}
+
+TEST(Keys, HoldForDefinitionsMadeInCpp) {
+  EXPECT_FALSE(keys_fault(SimulationDefinition()));
+  const auto key_of = [](const std::function<void(SimulationDefinition&)>& change) {
+    SimulationDefinition d;
+    change(d);
+    const auto fault = keys_fault(d);
+    return fault ? fault->key : std::string("none");
+  };
+  EXPECT_EQ(key_of([](auto& d) { d.time.cfl = 1.5; }), "time.cfl");
+  EXPECT_EQ(key_of([](auto& d) { d.contact.detection.minimum_volume = -0.1; }), "contact.minimum_volume");
+  EXPECT_EQ(key_of([](auto& d) { d.cracks.list.resize(1), d.cracks.length = 0.0; }), "cracks.length");
+  EXPECT_EQ(key_of([](auto& d) { d.cracks.list.resize(1), d.cracks.contour.size = 1; }), "cracks.contour.size");
+  EXPECT_EQ(key_of([](auto& d) { d.transport.quantities.resize(1), d.transport.quantities[0].order = 3; }),
+            "transport.order");
+  EXPECT_EQ(key_of([](auto& d) { d.sleep.emplace().balance = -1.0; }), "sleep.speed");  // the first that is not set
 }
 
 }  // namespace keys_test

@@ -15,4 +15,8 @@ const KeyTable<ContactDefinition>& contact_keys();
 const KeyTable<ContactLaw>& contact_law_keys();
 const KeyTable<GeostaticDefinition>& geostatic_keys();
 
+/// The first value of a definition that is out of the range of its key, with the path to it: of time, contact, cracks,
+/// transport and sleep. Materials, method and what has a check of its own are looked at elsewhere.
+std::optional<KeyFault> keys_fault(const SimulationDefinition& definition);
+
 }  // namespace mpm

@@ -24,7 +24,6 @@
 #include "mpm/rules/section_keys.hpp"
 #include "mpm/rules/transport_work.hpp"
 #include "mpm/simulation/threads.hpp"
-#include "mpm/sleep/sleep_keys.hpp"
 #include "mpm/start/initial.hpp"
 #include "mpm/start/particle_start.hpp"
 #include "state.hpp"
@@ -38,16 +37,9 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-/// Refuses a part of the definition with a value out of its range.
-template <class T>
-void check_keys(const KeyTable<T>& table, const T& part) {
-  const auto fault = table.fault(part);
-  if (fault) throw DefinitionError(fmt::format("{}.{}: {}", table.section(), fault->key, fault->text));
-}
-
 void check(const SimulationDefinition& d, int ranks) {
   if (d.time.sync <= 0) throw DefinitionError("time.sync must be a positive number of nanoseconds");
-  check_keys(time_keys(), d.time);
+  if (const auto fault = keys_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
@@ -57,7 +49,6 @@ void check(const SimulationDefinition& d, int ranks) {
   if (const auto fault = implicit_fault(d)) {
     throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
-  if (d.sleep) check_keys(sleep_keys(), *d.sleep);
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");

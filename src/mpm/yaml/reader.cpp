@@ -122,14 +122,15 @@ void Value::check(double value, const Dimension& dimension, const Range& range) 
   if (fault.empty()) return;
   const std::string noun = describe(dimension);
   const bool from_zero = range.least == 0.0 && range.most == kInfinity;
+  const char* const none = range.or_none ? ", or none" : "";
   if (from_zero) {
-    fail(fmt::format("'{}' {}; write {}{}, such as {}", text(), fault, range.with_least ? "0 or " : "", noun,
-                     example(dimension)));
+    fail(fmt::format("'{}' {}; write {}{}, such as {}{}", text(), fault, range.with_least ? "0 or " : "", noun,
+                     example(dimension), none));
   }
   // A plain angle is in radians, which is seldom meant.
   const std::string degrees = dimension == kAngle ? fmt::format(", {},", quantity_text(value, kAngle)) : "";
-  fail(fmt::format("'{}'{} {}; write {} {}", text(), degrees, fault, dimension == kPlain ? "a number" : noun,
-                   range.words(dimension)));
+  fail(fmt::format("'{}'{} {}; write {} {}{}", text(), degrees, fault, dimension == kPlain ? "a number" : noun,
+                   range.words(dimension), none));
 }
 
 double Value::number(const Dimension& dimension, const Range& range) const {

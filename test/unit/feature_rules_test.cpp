@@ -111,10 +111,10 @@ void add(Feature feature, SimulationDefinition& d) {
       add_body(d).inner_radius = 0.1;
       break;
     case Feature::sleep:
-      if (!d.sleep) d.sleep.emplace();
+      if (!d.sleep) d.sleep = SleepDefinition{1.0, 1.0, 1.0};
       break;
     case Feature::sleep_damping:
-      if (!d.sleep) d.sleep.emplace();
+      if (!d.sleep) d.sleep = SleepDefinition{1.0, 1.0, 1.0};
       d.sleep->damping = 0.5;
       break;
     case Feature::solid:

@@ -1,4 +1,4 @@
-// The laws of contact of every rigid body against every deformable one. Private to this folder.
+// The laws of contact of every rigid body against every deformable one.
 #pragma once
 
 #include <string>

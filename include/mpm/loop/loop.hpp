@@ -1,7 +1,7 @@
 // The loops of the solver, each by its name, shared out among threads. All parallel work is started here and nowhere
 // else: a profile of a run (loop/profile.hpp) has a row for each name.
 //
-// What a loop writes must not depend on who does which entry: entries write places of their own, and what is summed
+// A loop must write the same whoever does which entry: entries write places of their own, and what is summed
 // over several of them is summed in fixed groups (loop/chunk_sums.hpp, particles/sum_particles.hpp) or has no order
 // (largest, whole numbers). Then a run has the same bits for any number of threads. An exception must not leave an
 // entry.

@@ -1,4 +1,4 @@
-// The physics that every build has, each by the function that adds its modules. Private to this folder.
+// The physics that every build has, each by the function that adds its modules.
 #pragma once
 
 #include <string>

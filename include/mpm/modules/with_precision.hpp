@@ -1,4 +1,4 @@
-// From the precision of a run's particles to a type. Private to this folder.
+// From the precision of a run's particles to a type.
 #pragma once
 
 #include "mpm/particles/particle_scalar.hpp"

@@ -26,7 +26,7 @@ double stable_cfl(const Transfer& transfer);
 /// remedy, average_dilatation, is chosen, or cracks are there, whose two sides a cell would join.
 bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks);
 /// True if the balance of energy of scenes of a law was measured, and closes to 1 %: soil whose stiffness is its own.
-/// Of stiffness that follows the pressure no elastic energy is known that closed paths leave as it was (2.8 % of the
+/// No elastic energy is known that closed paths leave as it was where stiffness follows the pressure (2.8 % of the
 /// energy spent under a plate on cam_clay that moves up and down).
 bool closes_energy(const LawTraits& traits);
 /// True if particles of a body can share their stress: its law can, and if it finds the pressure from J, neither heat

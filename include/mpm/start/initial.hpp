@@ -1,4 +1,4 @@
-// Start of particles: under a stress, at a temperature, or as soil at rest. Private to this folder.
+// Start of particles: under a stress, at a temperature, or as soil at rest.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // The particles of a definition's bodies as sets. Over several ranks every one of them makes its own particles alone;
-// what is said of all of a body's is found together. Private to this folder.
+// what is said of all of a body's is found together.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 namespace mpm {
 
 /// Part of a triangle that is nearest to a point: corners 0-2, edges 3-5 (edge 3 + i from corner i), the face 6.
-enum TrianglePart : int { kCorner = 0, kEdge = 3, kFace = 6 };
+enum : int { kCorner = 0, kEdge = 3, kFace = 6 };
 
 struct Triangle {
   Vec3 a, ab, ac;

@@ -4,18 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "mpm/ranks/lists.hpp"
+#include "mpm/ranks/communicator.hpp"
 
 namespace mpm {
 
 /// Text of the lowest rank that says something; empty if none does. Collective.
-inline std::string first_text(Communicator& ranks, const std::string& own) {
-  for (const Communicator::Bytes& bytes : ranks.gather(bytes_of(std::vector<char>(own.begin(), own.end())))) {
-    const std::vector<char> text = list_of<char>(bytes);
-    if (!text.empty()) return {text.begin(), text.end()};
-  }
-  return {};
-}
+std::string first_text(Communicator& ranks, const std::string& own);
 
 /// Calls work(), in which ranks do not speak to each other. Where it throws a Failure on one rank it throws one on all,
 /// with the reason of the lowest that has one. `ranks`: null for a process that is alone. Collective.

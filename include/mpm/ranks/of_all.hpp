@@ -8,6 +8,7 @@
 
 #include "mpm/ranks/agree.hpp"
 #include "mpm/ranks/halo.hpp"
+#include "mpm/ranks/lists.hpp"
 
 namespace mpm {
 

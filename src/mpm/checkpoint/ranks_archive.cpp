@@ -7,6 +7,7 @@
 
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/lists.hpp"
 
 namespace mpm {
 namespace {

@@ -64,6 +64,11 @@ mpm_add_gtests(verification mpm_study test_pages test_ranks)
 # Tests of allocation replace operator new.
 set_source_files_properties(test/verification/allocation_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_precompile_headers(verification_tests REUSE_FROM test_pages)
+# Robots need an engine, which not every build has.
+if(MPM_ROBOTS AND DART_FOUND)
+  mpm_add_gtests(robots mpm_robots mpm_study test_pages)
+  target_precompile_headers(robots_tests REUSE_FROM test_pages)
+endif()
 mpm_add_gtests(stability mpm_study test_pages)
 target_precompile_headers(stability_tests REUSE_FROM test_pages)
 if(bridge_sources)

@@ -14,6 +14,7 @@
 #include "mpm/sections/all_keys.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ranks/make_ranks.hpp"
+#include "mpm_robots/robots.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
@@ -48,6 +49,7 @@ int run(mpm_ros::RunSceneOptions options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mpm::provide_robots();
   mpm_ros::spin_only_briefly(argv);
   mpm_ros::RunSceneOptions options;
   bool list = false;

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "mpm_ranks/make_ranks.hpp"
+#include "mpm_robots/robots.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
 #include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
@@ -66,6 +67,7 @@ int run(const mpm_ros::ParameterSources& sources, mpm_ros::ExitWatchdog& watchdo
 }  // namespace
 
 int main(int argc, char** argv) {
+  mpm::provide_robots();
   try {
     mpm::refuse_ranks("the node");
   } catch (const mpm::Error& error) {

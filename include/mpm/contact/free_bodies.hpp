@@ -1,5 +1,5 @@
-// The free bodies among those that contact acts on: their velocities while contact is solved, and the impulse that
-// contact gave to each.
+// The free bodies and the robots among those that contact acts on: their velocities while contact is solved, and the
+// impulse that contact gave to each.
 #pragma once
 
 #include <algorithm>
@@ -13,36 +13,59 @@ class FreeBodies {
  public:
   /// `bodies` must outlive this object.
   FreeBodies(const std::vector<RigidBody*>& bodies, const Vec3& gravity)
-      : bodies_(bodies), gravity_(gravity), taken_(bodies.size()) {}
+      : bodies_(bodies), gravity_(gravity), taken_(bodies.size()) {
+    for (RigidBody* body : bodies_) {
+      const LinkMotion* link = body->link_motion();
+      if (link == nullptr) continue;
+      if (std::find(robots_.begin(), robots_.end(), &link->robot()) == robots_.end()) robots_.push_back(&link->robot());
+    }
+  }
 
+  /// True if impulses move some body.
   bool any() const {
     return std::any_of(bodies_.begin(), bodies_.end(),
-                       [](const RigidBody* body) { return body->free_motion() != nullptr; });
+                       [](RigidBody* body) { return body->dynamic_motion() != nullptr; });
   }
   /// Null for a body whose motion is prescribed.
-  FreeMotion* motion(int body) const { return bodies_[body]->free_motion(); }
+  DynamicMotion* motion(int body) const { return bodies_[body]->dynamic_motion(); }
   /// Gives the bodies the velocities that the step would have without contact.
   void predict(double dt) {
     each([&](RigidBody& body, FreeMotion& motion, Taken&) { motion.predict(body.pose(), body.twist(), gravity_, dt); });
+    for (Articulation* robot : robots_) robot->predict(dt);
   }
   /// From here on velocities change for a trial, until end_trial() takes the changes back.
   void begin_trial() {
     each([](RigidBody& body, FreeMotion& motion, Taken&) { motion.begin_trial(body.pose(), body.twist()); });
+    for (Articulation* robot : robots_) robot->begin_trial();
   }
   void end_trial() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.end_trial(); });
+    for (Articulation* robot : robots_) robot->end_trial();
   }
   /// From here on velocities are increments, until end_increment() adds them to the previous velocities.
   void begin_increment() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.begin_increment(); });
+    for (Articulation* robot : robots_) robot->begin_increment();
   }
   void end_increment() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.end_increment(); });
+    for (Articulation* robot : robots_) robot->end_increment();
+  }
+  /// Looks whether the joints of robots act as assumed. Where one does not, compliances and velocities of bodies are
+  /// new, and contact has to be solved again.
+  bool settle() {
+    bool changed = false;
+    for (Articulation* robot : robots_) changed = robot->settle() || changed;
+    return changed;
   }
   /// Books an impulse on the material [N s]. `mean_slip`: mean velocity of the material
   /// relative to the body [m/s].
   void take(int body, const Vec3& impulse, const Vec3& place, const Vec3& normal, const Vec3& mean_slip) {
-    const FreeMotion* free = motion(body);
+    if (LinkMotion* link = bodies_[body]->link_motion()) {
+      link->take(-impulse, place, -impulse.dot(normal) * mean_slip.dot(normal));
+      return;
+    }
+    const FreeMotion* free = bodies_[body]->free_motion();
     if (free == nullptr) return;
     Taken& taken = taken_[body];
     taken.impulse.linear -= impulse;
@@ -56,6 +79,7 @@ class FreeBodies {
       body.set_twist(motion.twist(body.pose()));
       taken = {};
     });
+    for (Articulation* robot : robots_) robot->finish();
   }
 
  private:
@@ -73,6 +97,7 @@ class FreeBodies {
   const std::vector<RigidBody*>& bodies_;
   Vec3 gravity_;  ///< [m/s^2]
   std::vector<Taken> taken_;
+  std::vector<Articulation*> robots_;
 };
 
 }  // namespace mpm

@@ -29,7 +29,7 @@
 #include "mpm/contact/edge_cover.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/rigid/contact_law.hpp"
-#include "mpm/rigid/free_motion.hpp"
+#include "mpm/rigid/dynamic_motion.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/coulomb.hpp"
 #include "mpm/step/step_context.hpp"
@@ -46,17 +46,17 @@ class PointSolver {
     double compliance = 0.0;      ///< velocity at the point by an impulse there [1/kg]
     double with_body[2] =
         {};  ///< compliance with that of a free body: along the normal, and the largest along the surface
-    double friction = 0.0;         ///< coefficient in this step
-    double adhesion = 0.0;         ///< largest pulling impulse [N s]
-    bool sticks = false;           ///< no sliding while pressed
-    bool at_edge = false;          ///< true if a node of it lies in part beyond an edge
-    Hold hold = Hold::free;        ///< in the step before, then in this one
-    int found = 0;                 ///< index among the points that were found
-    int body = 0;                  ///< index among the bodies
-    int first = 0, end = 0;        ///< its parts in parts_
-    FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
-    Vec3 place;                    ///< world [m]
-    Vec3 start = Vec3::Zero();     ///< velocity that the point takes from nodes before the impulses [m/s]
+    double friction = 0.0;            ///< coefficient in this step
+    double adhesion = 0.0;            ///< largest pulling impulse [N s]
+    bool sticks = false;              ///< no sliding while pressed
+    bool at_edge = false;             ///< true if a node of it lies in part beyond an edge
+    Hold hold = Hold::free;           ///< in the step before, then in this one
+    int found = 0;                    ///< index among the points that were found
+    int body = 0;                     ///< index among the bodies
+    int first = 0, end = 0;           ///< its parts in parts_
+    DynamicMotion* motion = nullptr;  ///< motion that impulses change; null where it is prescribed
+    Vec3 place;                       ///< world [m]
+    Vec3 start = Vec3::Zero();        ///< velocity that the point takes from nodes before the impulses [m/s]
   };
   enum class Pass {
     step,      ///< impulses >= 0, friction: decides which points are held
@@ -97,7 +97,7 @@ class PointSolver {
   void push_bodies();
   /// Adds the points' impulses, times `factor`, to this member of their fields: a momentum or a force.
   void add_impulses(Member to, double factor);
-  /// Adds the compliance of free bodies to that of their points. Call after FreeMotion::predict().
+  /// Adds the compliance of free bodies to that of their points. Call after FreeBodies::predict().
   void find_compliance_with_bodies();
   /// `free`: whether some body is free, so that its velocity is an unknown too.
   void solve(Pass pass, bool free);

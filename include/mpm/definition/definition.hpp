@@ -24,6 +24,7 @@
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/robot/definition.hpp"
 #include "mpm/shape/axis_rules.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/sleep/sleep_definition.hpp"
@@ -205,6 +206,7 @@ struct SimulationDefinition {
   std::vector<MaterialDefinition> materials;
   std::vector<DeformableBody> bodies;
   std::vector<RigidBodyDefinition> rigid_bodies;
+  std::vector<RobotDefinition> robots;  ///< their links are among rigid_bodies
   ContactDefinition contact;
   std::array<WallDefinition, 6> walls;
   std::vector<ConditionDefinition> conditions;

@@ -70,6 +70,8 @@ class ToolRows {
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
   /// Solves the rows of free bodies, whose velocities change with each.
   void meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes);
+  /// Looks whether the joints of robots act as assumed (FreeBodies::settle()).
+  bool settle();
   /// SweepTable::extrapolate() of the rows of free bodies, and of these.
   void extrapolate_free(double factor);
   /// Sum of the impulses' magnitudes [N s].
@@ -106,6 +108,7 @@ class ToolRows {
     int body, sample, block;
     Vec3 at;                                ///< [m]
     double area;                            ///< [m^2]
+    double own;                             ///< the largest answer of its nodes along an axis [1/kg]
     double weight[mpm_kernel::kCellNodes];  ///< weights of its nodes, whether a wall holds them or not
     Vec3 prescribed;  ///< part of the soil's velocity there by nodes that are held, which the row's leaves out [m/s]
   };

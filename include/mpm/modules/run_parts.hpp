@@ -16,6 +16,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/ranks/halo.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/robot/robot.hpp"
 #include "mpm/step/block_probe.hpp"
 #include "mpm/step/modules.hpp"
 #include "mpm/step/scalar_transfer.hpp"
@@ -38,12 +39,13 @@ struct Services {
 struct RunParts {
   const SimulationDefinition& definition;
   const FieldMap& map;
-  Fields& fields;                  ///< without blocks yet
-  std::vector<ParticleSet>& sets;  ///< one for each body of the definition; not sorted yet
-  const std::vector<Law>& laws;    ///< one for each set
-  std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
-  NodeChoice* choice;              ///< choice of fields by particles near cracks; null without cracks
-  Communicator* ranks;             ///< communicator of a run over several ranks; else null, as `halo` is
+  Fields& fields;                               ///< without blocks yet
+  std::vector<ParticleSet>& sets;               ///< one for each body of the definition; not sorted yet
+  const std::vector<Law>& laws;                 ///< one for each set
+  std::vector<RigidBody>& bodies;               ///< one for each rigid body of the definition
+  std::vector<std::unique_ptr<Robot>>& robots;  ///< one for each of the definition
+  NodeChoice* choice;                           ///< choice of fields by particles near cracks; null without cracks
+  Communicator* ranks;                          ///< communicator of a run over several ranks; else null, as `halo` is
   Halo* halo;
   int threads;
   Isa isa;

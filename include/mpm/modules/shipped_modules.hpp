@@ -37,6 +37,7 @@ void add_stress_average(RunParts& parts);
 void add_volume_correction(RunParts& parts);
 void add_damping(RunParts& parts);
 void add_rigid_motion(RunParts& parts);
+void add_robots(RunParts& parts);
 void add_tool_sides(RunParts& parts);
 void add_absorbing(RunParts& parts);
 void add_walls(RunParts& parts);

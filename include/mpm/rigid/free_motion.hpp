@@ -19,7 +19,7 @@
 #include <string>
 
 #include "mpm/math/state_archive.hpp"
-#include "mpm/rigid/body_motion.hpp"
+#include "mpm/rigid/dynamic_motion.hpp"
 
 namespace mpm {
 
@@ -86,7 +86,7 @@ struct FreeBodyReport : FreeAccount {
   double potential = 0.0;  ///< -m g.x [J]
 };
 
-class FreeMotion final : public BodyMotion {
+class FreeMotion final : public DynamicMotion {
  public:
   /// `name`: of the body, for errors. @throws RigidError when mass or inertia are impossible.
   FreeMotion(const FreeDefinition& definition, const std::string& name);
@@ -103,19 +103,11 @@ class FreeMotion final : public BodyMotion {
   void start(const Pose& pose, const Twist& twist);
   /// Computes the step's velocity without contact. `twist`: of the origin, with the prescribed parts of this step.
   void predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
-  /// Present velocity, and the mean of that and the velocity at the step's start, at a world point [m/s].
-  using BodyMotion::velocity_at;
-  Vec3 velocity_at(const Vec3& point) const { return velocity_ + rate_.cross(point - centre_); }
-  Vec3 mean_velocity_at(const Vec3& point) const {
-    return 0.5 * (velocity_ + start_velocity_ + (rate_ + start_rate_).cross(point - centre_));
-  }
-  /// Applies an impulse [N s] to the body at a world point.
-  void push(const Vec3& impulse, const Vec3& point) {
+  void push(const Vec3& impulse, const Vec3& point) override {
     velocity_ += inverse_mass_.cwiseProduct(impulse);
     rate_ += lifted_ * (point - centre_).cross(impulse);
   }
-  /// Change of velocity of a world point by a unit impulse there, along each pair of axes [1/kg].
-  Mat3 compliance_at(const Vec3& point) const;
+  Mat3 compliance_at(const Vec3& point) const override;
   /// Begins a trial: what is pushed between the two calls is forgotten at the second. `twist`: as predict() has it.
   void begin_trial(const Pose& pose, const Twist& twist);
   void end_trial();
@@ -125,9 +117,6 @@ class FreeMotion final : public BodyMotion {
   /// Books the `impulse` of contact, about the centre of mass, and the loss of energy [J]. Called once more in a step
   /// for an increment.
   void finish(const BodyMomentum& impulse, double loss);
-  const Vec3& centre() const { return centre_; }
-  /// The twist of the body's origin.
-  Twist twist(const Pose& pose) const;
   /// Moves the pose by the velocity after finish(). @return the twist of the origin at the new pose.
   Twist advance(Pose& pose, const Twist& twist, double dt) override;
   double unprescribed_acceleration(double gravity) const override {
@@ -156,9 +145,6 @@ class FreeMotion final : public BodyMotion {
   Wrench wrench_;
 
   // State within the step.
-  Vec3 centre_ = Vec3::Zero();
-  Vec3 velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();
-  Vec3 start_velocity_ = Vec3::Zero(), start_rate_ = Vec3::Zero();
   Vec3 kept_velocity_ = Vec3::Zero(), kept_rate_ = Vec3::Zero();  ///< without contact, the increment or the trial
   Vec3 inverse_mass_ = Vec3::Zero();
   Mat3 inertia_ = Mat3::Zero(), lifted_ = Mat3::Zero();

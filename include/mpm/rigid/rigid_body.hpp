@@ -1,6 +1,6 @@
 // A rigid body: a surface whose motion is prescribed, or, where it is free, follows from forces
-// (rigid/free_motion.hpp). What prescribes it is kept here too (functions of time, a twist, a pose to be reached at a
-// time), so that pose and twist come from one place.
+// (rigid/free_motion.hpp), or is that of a robot's link (rigid/link_motion.hpp). What prescribes it is kept here too
+// (functions of time, a twist, a pose to be reached at a time), so that pose and twist come from one place.
 #pragma once
 
 #include <array>
@@ -16,6 +16,7 @@
 #include "mpm/rigid/body_motion.hpp"
 #include "mpm/rigid/contact_law.hpp"
 #include "mpm/rigid/free_motion.hpp"
+#include "mpm/rigid/link_motion.hpp"
 #include "mpm/rigid/motion.hpp"
 #include "mpm/rigid/surface.hpp"
 
@@ -68,7 +69,7 @@ class RigidBody {
   Drive drive() const { return drive_; }
   /// Bounds of the surface now [m]; a body that is endless along an axis stays endless.
   Box world_bounds() const { return mpm::world_bounds(pose_, surface().bounds()); }
-  /// The motion of the body: prescribed, as a ring, or free.
+  /// The motion of the body: prescribed, as a ring, free, or that of a robot's link.
   const BodyMotion& motion() const {
     return std::visit([](const BodyMotion& motion) -> const BodyMotion& { return motion; }, motion_);
   }
@@ -78,7 +79,22 @@ class RigidBody {
   /// Null unless some of its velocities are free.
   FreeMotion* free_motion() { return std::get_if<FreeMotion>(&motion_); }
   const FreeMotion* free_motion() const { return std::get_if<FreeMotion>(&motion_); }
-  /// Sets the twist of a free body after contact and forces.
+  /// The motion of a robot's link; null for other bodies.
+  LinkMotion* link_motion() { return std::get_if<LinkMotion>(&motion_); }
+  const LinkMotion* link_motion() const { return std::get_if<LinkMotion>(&motion_); }
+  /// The motion that contact changes: of a free body, or of a link that impulses move. Null for others.
+  DynamicMotion* dynamic_motion() {
+    if (FreeMotion* free = free_motion()) return free;
+    LinkMotion* link = link_motion();
+    return link != nullptr && link->responds() ? link : nullptr;
+  }
+  const DynamicMotion* dynamic_motion() const { return const_cast<RigidBody*>(this)->dynamic_motion(); }
+  /// Makes the body a link of a robot, which puts it at `pose`.
+  LinkMotion& join(Articulation& robot, LinkResponse& response, const Pose& pose) {
+    pose_ = pose;
+    return motion_.emplace<LinkMotion>(robot, response);
+  }
+  /// Sets the twist of a free body or a link after contact and forces.
   void set_twist(const Twist& twist) { twist_ = twist; }
 
   /// Prescribes a constant twist from now on; free velocities are not changed. @throws RigidError when not finite, or
@@ -115,7 +131,7 @@ class RigidBody {
   Drive drive_ = Drive::functions;
   Pose target_;
   std::int64_t arrival_ = 0;
-  std::variant<PrescribedMotion, RingMotion, FreeMotion> motion_;
+  std::variant<PrescribedMotion, RingMotion, FreeMotion, LinkMotion> motion_;
 };
 
 }  // namespace mpm

@@ -41,6 +41,7 @@ enum class Feature {
   pore_pressure,
   ranks,
   rings,
+  robots,
   sleep,
   sleep_damping,
   solid,

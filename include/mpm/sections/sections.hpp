@@ -40,8 +40,8 @@ Region read_region(const Value& value, GeometryKind geometry);
 Region read_terrain(const Value& value, const SimulationDefinition& definition);
 /// `bodies.<name>.initial`
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
-/// `rigid_bodies`, and by read_contact() `contact`, after bodies
-void read_rigid_bodies(const Map& root, Scene& scene);
+/// `rigid_bodies`, and by read_contact() `contact`, after bodies. Returns the friction of tools that name none.
+FrictionLaw read_rigid_bodies(const Map& root, Scene& scene);
 /// `contact` without its pairs: how contact is found, and the law of tools without a law of their own. `with_tools`:
 /// whether there are tools.
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
@@ -71,6 +71,10 @@ std::string path_from_scene(const Value& value);
 std::string file_from_scene(const Value& value);
 /// Below this a mesh is refused as too thin [m], after `grid`.
 double thinnest_mesh(const SimulationDefinition& definition);
+/// A pose; `inner_radius`: the inner radius of a ring that opens along x, else 0.
+Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius);
+/// `robots`, whose links become rigid bodies, after `rigid_bodies`. `friction`: of links without one of their own.
+void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene);
 /// `drive` and `limits` of a rigid body, after its shape
 CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
 /// `boundaries`, after bodies and rigid bodies

@@ -24,6 +24,7 @@
 #include "mpm/math/state_archive.hpp"
 #include "mpm/math/stopped.hpp"
 #include "mpm/ranks/communicator.hpp"
+#include "mpm/robot/robot.hpp"
 
 namespace mpm {
 
@@ -114,6 +115,19 @@ class Simulation {
   std::vector<BodyState> bodies() const;
   /// Balances of momentum and energies of the free bodies, in their order.
   std::vector<FreeBodyReport> free_bodies() const;
+
+  /// Robots as they are at the present sync point.
+  std::vector<RobotReport> robots() const;
+  /// Index of a robot by its name, -1 without one.
+  int find_robot(const std::string& name) const;
+  /// Index of a robot's joint that can be commanded. @throws RigidError with the nearest name
+  int find_joint(int robot, const std::string& joint) const;
+  /// Commands a joint from now on, by the kind of its drive: velocity, position or effort. A position that a rigid
+  /// drive is to reach is approached until `arrival` [ns], which is not before the next sync point.
+  /// @throws RigidError when not finite, or outside the joint's limits; nothing is changed then
+  void command_joint(int robot, int joint, double value, std::int64_t arrival);
+  /// Lets a joint follow a trajectory, whose knots are in simulated time. @throws RigidError as Robot::follow() does
+  void follow_trajectory(int robot, int joint, std::vector<JointKnot> knots);
   const RigidBody& rigid_body(int body) const;
   /// A number of a rigid body, by one of the names in body_values(): "x" of its origin [m], "vz" [m/s], "wy" [rad/s],
   /// "impulse_x" of contact on it since the start [N s]. @throws DefinitionError for an unknown name

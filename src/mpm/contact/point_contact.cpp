@@ -10,6 +10,7 @@ constexpr double kWeakening = 1e-3;  ///< cells of sliding over which friction f
 constexpr double kAtRest = 1e-6;     ///< cells: what slides by less in a step is at rest, and what is this near adheres
 constexpr double kPushOut = 2e-4;    ///< cells a step at most that a point inside a body is moved out
 constexpr double kPushOutPart = 0.1;  ///< part of its depth
+constexpr int kJointRounds = 8;       ///< solutions at most, after joints have begun to slide, stop or give way
 
 Vec3 along_surface(const Vec3& velocity, const Vec3& normal) { return velocity - velocity.dot(normal) * normal; }
 
@@ -151,6 +152,10 @@ void PointContact::momentum_updated(StepContext& context) {
       solver_.push_all();
     }
     solver_.solve(Pass::step, free);
+    for (int round = 0; free && round < kJointRounds && free_.settle(); ++round) {
+      solver_.find_compliance_with_bodies();
+      solver_.solve(Pass::step, free);
+    }
     solver_.store(&Grid::velocity);
     solver_.store(&Grid::force, 1.0 / context.dt);
   }

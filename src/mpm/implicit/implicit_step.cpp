@@ -25,6 +25,7 @@ constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
 constexpr double kHeld = 6.0;       ///< pressure on a tool over rho (h / dt)^2, at the most
 constexpr int kWholeSweeps = 2;     ///< that take all blocks, whether they need it or not
 constexpr double kQuiet = 0.1;      ///< part of a block's share of what is left to settle: with less it is not swept
+constexpr int kSweepsToSettle = 16;  ///< after which the joints of robots are looked at
 constexpr double kKept = 0.9;       ///< part of the sweeps of the step before, at the least
 constexpr double kLightest = 1e-6;  ///< part of a cell full of soil: what is added to a node's mass in the solve
 
@@ -256,6 +257,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
       cut = budget != nullptr && budget->ends_after(sweeps_);
       if (cut) break;
       const bool backwards = sweeps_ % 2 == 1;
+      if (sweeps_ % kSweepsToSettle == 0) tools_.settle();
       if (!backwards) go_on(restart_.factor(sum.change));
       if (sweeps_ + 1 == most) {
         stirred_.assign(stirred_.size(), 1);
@@ -274,7 +276,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
       }
       const double gained = now > 0.0 ? std::abs(now - pressed_.front()) / now : 0.0;
       const double allowed = std::clamp(kOfGain * gained, kLeastForceError, kForceError);
-      settled = sum.change <= kSettled * kSettled * sum.size && change_ <= allowed;
+      settled = sum.change <= kSettled * kSettled * sum.size && change_ <= allowed && !tools_.settle();
     }
     if (!cut) sweep_left_out(budget);
     if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});

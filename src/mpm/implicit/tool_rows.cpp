@@ -180,12 +180,13 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
   place.area = point.area * across(place.at);
   if (!find_soil(place.at, nodes, row, place)) return false;
   const Vec3 own = bind_nodes(nodes, row, place), normal = of.pose().orientation * point.normal;
-  const FreeMotion* motion = of.free_motion();
+  const DynamicMotion* motion = of.dynamic_motion();
   const Mat3 compliance = motion != nullptr ? motion->compliance_at(place.at) : Mat3(Mat3::Zero());
   const double most = own.maxCoeff() + compliance.cwiseAbs().rowwise().sum().maxCoeff();
   // Leaves out points where nothing that is free along the normal answers: an impulse would grow without end.
   if (!(normal.cwiseAbs2().dot(own) + normal.dot(compliance * normal) > kAnswers * most)) return false;
   row.own = static_cast<T>(most);
+  place.own = own.maxCoeff();
   row.friction = law.stick ? T(-1) : static_cast<T>(law.coefficient);
   const Vec3 velocity = motion != nullptr ? motion->velocity_at(place.at) : of.velocity_at(place.at);
   const Vec3 begins = first_impulse(body, sample, normal, law, most, dt);
@@ -233,7 +234,7 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
   held_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
-    if (FreeMotion* motion = free_.motion(places_[i].body)) motion->push(-vector_of(row.impulse), places_[i].at);
+    if (DynamicMotion* motion = free_.motion(places_[i].body)) motion->push(-vector_of(row.impulse), places_[i].at);
     for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       Node& node = nodes[row.node[e]];
       for (int a = 0; a < 3; ++a) {
@@ -253,7 +254,7 @@ void ToolRows<T>::meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<
   for (int pass = 0; pass < kPasses; ++pass) {
     for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
       Row& row = rows_[i];
-      FreeMotion& motion = *free_.motion(places_[i].body);
+      DynamicMotion& motion = *free_.motion(places_[i].body);
       const Vec3 velocity = motion.velocity_at(places_[i].at) - places_[i].prescribed;
       const Vec3 before = vector_of(row.impulse);
       for (int a = 0; a < 3; ++a) row.velocity[a] = static_cast<T>(velocity[a]);
@@ -275,6 +276,16 @@ void ToolRows<T>::extrapolate_free(double factor) {
     }
     free_.motion(places_[i].body)->push(was - vector_of(row.impulse), places_[i].at);
   }
+}
+
+template <class T>
+bool ToolRows<T>::settle() {
+  if (!free_.settle()) return false;
+  for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
+    const Mat3 compliance = free_.motion(places_[i].body)->compliance_at(places_[i].at);
+    rows_[i].own = static_cast<T>(places_[i].own + compliance.cwiseAbs().rowwise().sum().maxCoeff());
+  }
+  return true;
 }
 
 template <class T>
@@ -335,7 +346,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     const RigidBody& body = *bodies_[place.body];
     const Vec3 impulse = vector_of(row.impulse), normal = vector_of(row.normal);
     // Mean of the step for a free body, with which its own energy changes.
-    const FreeMotion* motion = free_.motion(place.body);
+    const DynamicMotion* motion = free_.motion(place.body);
     const Vec3 velocity =
         motion != nullptr ? motion->mean_velocity_at(place.at) : Vec3(vector_of(row.velocity) + place.prescribed);
     Vec3 slip = place.prescribed - velocity;

@@ -35,6 +35,7 @@ class RigidMotion final : public Module {
   }
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (bodies_[b].link_motion() != nullptr) continue;  // its robot says how fast it may become
       StepLimit own;
       own.by = this;
       own.part = static_cast<int>(b);

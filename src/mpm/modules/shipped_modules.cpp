@@ -29,6 +29,7 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_damping, {{"alpha", "1/s"}}},
       {add_transport, transport_numbers()},  // before contact, which tells it of heat
       {add_rigid_motion},
+      {add_robots},
       {add_tool_sides},  // before contact, which asks it
       {add_absorbing},
       {add_walls},

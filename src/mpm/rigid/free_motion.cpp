@@ -169,8 +169,6 @@ void FreeMotion::finish(const BodyMomentum& impulse, double loss) {
   account_.contact_loss += loss;
 }
 
-Twist FreeMotion::twist(const Pose& pose) const { return {velocity_ + rate_.cross(pose.position - centre_), rate_}; }
-
 std::string FreeMotion::refused_velocity() const {
   if (!definition_.all_free()) return {};
   return "it is free in all it can do, so there is no velocity to command; apply a wrench, or leave an axis out of "

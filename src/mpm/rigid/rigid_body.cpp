@@ -81,6 +81,7 @@ void RigidBody::apply_wrench(const Wrench& wrench) {
   if (!wrench.force.allFinite() || !wrench.torque.allFinite()) {
     throw RigidError(start + "is not finite: force " + text_of(wrench.force) + ", torque " + text_of(wrench.torque));
   }
+  if (const LinkMotion* link = link_motion()) throw RigidError(start + "refused: " + link->refused_velocity());
   FreeMotion* free = free_motion();
   if (free == nullptr) throw RigidError(start + "for a body that only moves as prescribed; give it a mass by `free`");
   free->apply_wrench(wrench);

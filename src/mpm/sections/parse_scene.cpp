@@ -96,9 +96,9 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   context.source = &source;
   const Value top(context, source.root(), "");
   const Map root(top,
-                 {"name",      "units",   "constants", "geometry", "thickness",    "area",    "grid",       "time",
-                  "method",    "gravity", "materials", "bodies",   "rigid_bodies", "contact", "boundaries", "loads",
-                  "transport", "sleep",   "cracks",    "output",   "metrics",      "target"});
+                 {"name",   "units",     "constants", "geometry", "thickness",    "area",    "grid",    "time",
+                  "method", "gravity",   "materials", "bodies",   "rigid_bodies", "robots",  "contact", "boundaries",
+                  "loads",  "transport", "sleep",     "cracks",   "output",       "metrics", "target"});
   Scene scene;
   scene.path = label;
   SimulationDefinition& definition = scene.definition;
@@ -121,7 +121,8 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
     scene.choices.emplace_back("gravity", "none: the scene names none");
   }
   read_bodies(root, scene);
-  read_rigid_bodies(root, scene);
+  const FrictionLaw friction = read_rigid_bodies(root, scene);
+  read_robots(root, friction, scene);
   read_contact_pairs(root, scene);
   read_boundaries(root, scene);
   read_loads(root, scene);

@@ -140,34 +140,6 @@ Quat read_quaternion(const Value& value) {
   return given.normalized();
 }
 
-/// `inner_radius`: the inner radius of a ring that opens along x, else 0.
-Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius) {
-  const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
-  Pose pose;
-  const auto position = map.find("position");
-  if (position) pose.position = position->vector(kLength);
-  if (axisymmetric(geometry) && pose.position.x() != 0.0 && inner_radius == 0.0)
-    position->fail("off the axis the tool is not axisymmetric; write [0, z], or make the scene solid");
-  if (inner_radius > 0.0 && !(inner_radius + pose.position.x() > 0.0))
-    position->fail(fmt::format("the ring is closed there: x changes its inner radius of {:g} m", inner_radius));
-  const auto rpy = map.find("rpy");
-  const auto quaternion = map.find("quaternion");
-  if (rpy && quaternion) quaternion->fail("a pose has rpy or quaternion, not both; leave one out");
-  if (rpy) pose.orientation = read_rpy(*rpy);
-  if (quaternion) pose.orientation = read_quaternion(*quaternion);
-  if (geometry == GeometryKind::line && (rpy || quaternion)) {
-    (rpy ? *rpy : *quaternion).fail("nothing turns in a line; leave it out");
-  }
-  if (axisymmetric(geometry) && pose.orientation.vec().norm() > 1e-9)
-    (rpy ? *rpy : *quaternion).fail("a turned tool is not axisymmetric; leave it out, or make the scene solid");
-  // In a planar scene the body's y axis stays the world's.
-  if (planar(geometry) && (pose.orientation * Vec3::UnitY() - Vec3::UnitY()).norm() > 1e-9) {
-    (rpy ? *rpy : *quaternion)
-        .fail("turns the body out of the plane; a planar scene turns about y alone: rpy: [0, pitch, 0]");
-  }
-  return pose;
-}
-
 std::array<Function, 3> read_rotation_rate(const Value& value, GeometryKind geometry) {
   if (geometry == GeometryKind::line) value.fail("nothing turns in a line; leave it out");
   if (axisymmetric(geometry))
@@ -221,6 +193,33 @@ bool names_friction(const Map& root) {
 
 }  // namespace
 
+Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius) {
+  const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
+  Pose pose;
+  const auto position = map.find("position");
+  if (position) pose.position = position->vector(kLength);
+  if (axisymmetric(geometry) && pose.position.x() != 0.0 && inner_radius == 0.0)
+    position->fail("off the axis the tool is not axisymmetric; write [0, z], or make the scene solid");
+  if (inner_radius > 0.0 && !(inner_radius + pose.position.x() > 0.0))
+    position->fail(fmt::format("the ring is closed there: x changes its inner radius of {:g} m", inner_radius));
+  const auto rpy = map.find("rpy");
+  const auto quaternion = map.find("quaternion");
+  if (rpy && quaternion) quaternion->fail("a pose has rpy or quaternion, not both; leave one out");
+  if (rpy) pose.orientation = read_rpy(*rpy);
+  if (quaternion) pose.orientation = read_quaternion(*quaternion);
+  if (geometry == GeometryKind::line && (rpy || quaternion)) {
+    (rpy ? *rpy : *quaternion).fail("nothing turns in a line; leave it out");
+  }
+  if (axisymmetric(geometry) && pose.orientation.vec().norm() > 1e-9)
+    (rpy ? *rpy : *quaternion).fail("a turned tool is not axisymmetric; leave it out, or make the scene solid");
+  // In a planar scene the body's y axis stays the world's.
+  if (planar(geometry) && (pose.orientation * Vec3::UnitY() - Vec3::UnitY()).norm() > 1e-9) {
+    (rpy ? *rpy : *quaternion)
+        .fail("turns the body out of the plane; a planar scene turns about y alone: rpy: [0, pitch, 0]");
+  }
+  return pose;
+}
+
 double thinnest_mesh(const SimulationDefinition& definition) {
   return kThinnestMesh * definition.grid.cell.minCoeff();  // cell of a solid scene, which alone has meshes
 }
@@ -236,10 +235,10 @@ void read_rigid_shape(const Map& map, const SimulationDefinition& definition, Ri
   read_rigid_motion(map, geometry, body);
 }
 
-void read_rigid_bodies(const Map& root, Scene& scene) {
+FrictionLaw read_rigid_bodies(const Map& root, Scene& scene) {
   const auto section = root.find("rigid_bodies");
-  const FrictionLaw friction = read_contact(root, scene, section.has_value());
-  if (!section) return;
+  const FrictionLaw friction = read_contact(root, scene, section.has_value() || root.find("robots").has_value());
+  if (!section) return friction;
   bool smooth = false;  // a tool for which the scene names no friction
   for (const Value& value : section->elements()) {
     RigidBodyDefinition body;
@@ -268,6 +267,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
   if (smooth) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
+  return friction;
 }
 
 }  // namespace mpm

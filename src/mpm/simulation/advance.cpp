@@ -55,12 +55,14 @@ void Simulation::State::see_courant(double dt, const StepLimit& found) {
 }
 
 bool Simulation::State::step(double start, double dt, bool more) {
+  for (auto& robot : robots) robot->begin_step(start, dt);
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{fields, dt, start};
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg,
                                      &step_implicit};  // in the order of UpdateScheme
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
+  for (auto& robot : robots) robot->end_step();
   for (RigidBody& body : bodies) body.end_step(dt);
   timed("modules: end of a step", [&] {
     for (Module* module : modules.list()) module->step_ended();

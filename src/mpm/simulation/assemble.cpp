@@ -169,6 +169,9 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : definition.rigid_bodies) bodies.emplace_back(body);
+  for (const RobotDefinition& robot : definition.robots) {
+    robots.push_back(std::make_unique<Robot>(robot, definition.gravity, bodies));
+  }
   if (ranks) {
     over = std::make_unique<OverRanks>(*ranks, layout(), bodies);
     if (!ranks->first()) modules.leave_shared_to_first();
@@ -179,6 +182,7 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
                  sets,
                  laws,
                  bodies,
+                 robots,
                  choice.get(),
                  ranks.get(),
                  over ? &over->halo() : nullptr,

@@ -177,6 +177,33 @@ std::vector<FreeBodyReport> Simulation::free_bodies() const {
   return list;
 }
 
+std::vector<RobotReport> Simulation::robots() const {
+  std::vector<RobotReport> list;
+  for (const auto& robot : state_->robots) list.push_back(robot->report());
+  return list;
+}
+
+int Simulation::find_robot(const std::string& name) const {
+  for (std::size_t r = 0; r < state_->robots.size(); ++r) {
+    if (state_->robots[r]->name() == name) return static_cast<int>(r);
+  }
+  return -1;
+}
+
+int Simulation::find_joint(int robot, const std::string& joint) const {
+  return state_->robots.at(robot)->find_joint(joint);
+}
+
+void Simulation::command_joint(int robot, int joint, double value, std::int64_t arrival) {
+  const State& s = *state_;
+  const std::int64_t end = std::max(arrival, s.time + s.definition.time.sync);
+  s.robots.at(robot)->command(joint, value, seconds_of(s.time), seconds_of(end));
+}
+
+void Simulation::follow_trajectory(int robot, int joint, std::vector<JointKnot> knots) {
+  state_->robots.at(robot)->follow(joint, std::move(knots), seconds_of(state_->time));
+}
+
 std::vector<BodyState> Simulation::bodies() const {
   std::vector<BodyState> list;
   for (const RigidBody& body : state_->bodies) {

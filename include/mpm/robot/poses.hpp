@@ -1,0 +1,13 @@
+// Where the links of a robot are when its joints are at given positions.
+#pragma once
+
+#include <vector>
+
+#include "mpm/robot/definition.hpp"
+
+namespace mpm {
+
+/// Poses of all links at the start, in the model's order.
+std::vector<Pose> start_poses(const RobotDefinition& robot);
+
+}  // namespace mpm

@@ -1,0 +1,161 @@
+// A robot in the run: its joints' positions and velocities, what drives them, and the links that meet the material.
+//
+// A step: begin_step() reads the targets of drives and finds mass matrix and Jacobians where the robot is; predict()
+// finds the velocities that the step would have without contact; contact changes them, each impulse by
+// J (M + C)^-1 J^T, where C is what drives, damping and limits add (joint_law.hpp); finish() ends that; end_step()
+// books what each gave, and moves the joints by the velocities of the step's end. Coriolis forces are those of the mean
+// of the velocities of both ends, so that the step is symmetric in time (leapfrog): energy oscillates by the step's
+// first power, as that of the material does, and does not drift.
+//
+// Weak: in a step, Coriolis forces do not know what contact changed. With the laws' pieces that are assumed to hold
+// contact is solved as a whole; when they change it is solved again (Articulation::settle()).
+// Source: leapfrog of Hairer, Lubich & Wanner (2006), chapter I.1; joint-space equations of Featherstone (2008),
+// chapter 3.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/math/state_archive.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/robot/engine.hpp"
+#include "mpm/robot/joint_solution.hpp"
+#include "mpm/robot/joint_target.hpp"
+
+namespace mpm {
+
+struct JointReport {
+  std::string name;
+  double position = 0.0;  ///< [m], [rad]
+  double velocity = 0.0;  ///< [m/s], [rad/s]
+  double effort = 0.0;    ///< of the drive, in the last step [N], [N m]
+  double impulse = 0.0;   ///< of the drive, since the start of the run [N s], [N m s]
+  double target = 0.0;    ///< of the drive, by its kind
+  JointDrive drive = JointDrive::effort;
+};
+
+/// Wrench that a joint transmits to its child link, in the child's axes and about its origin.
+struct SensorReport {
+  std::string joint, link;
+  Wrench wrench;   ///< in the last step
+  Wrench impulse;  ///< since the start of the run [N s], [N m s]
+};
+
+/// Energies since the start of the run [J]; kinetic + potential changes by drive + damping + friction + limit +
+/// contact.
+struct RobotEnergies {
+  double kinetic = 0.0, potential = 0.0;
+  double drive = 0.0;    ///< work of the drives, and of what moves the base
+  double damping = 0.0;  ///< of joints, as those below at most 0
+  double friction = 0.0;
+  double limit = 0.0;
+  double contact = 0.0;  ///< work of the material on the links
+  double loss = 0.0;     ///< lost where links and material met, sliding left out
+};
+
+struct RobotReport {
+  std::string name;
+  Pose base;
+  Twist base_twist;
+  std::vector<JointReport> joints;  ///< all that move, mimic joints too
+  std::vector<SensorReport> sensors;
+  std::vector<std::string> links;  ///< bodies that are its links
+  RobotEnergies energies;
+};
+
+class Robot final : public Articulation {
+ public:
+  /// `bodies`: of the run; those that the definition names become links of the robot. They outlive it, and stay where
+  /// they are. @throws RigidError when this build has no engine, or the start is not within the joints' limits
+  Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector<RigidBody>& bodies);
+
+  const RobotDefinition& definition() const { return definition_; }
+  const std::string& name() const { return definition_.name; }
+  /// Index of a joint that can be commanded. @throws RigidError with the nearest name
+  int find_joint(const std::string& name) const;
+  /// A target of the drive's kind from now on. A position that is to be reached without stiffness is approached over
+  /// the time to `arrival`. @throws RigidError when not finite, or beyond the joint's limits
+  void command(int joint, double value, double now, double arrival);
+  /// @throws RigidError for knots that do not go on in time, lie before `now`, are beyond limits, or for a drive by
+  /// effort
+  void follow(int joint, std::vector<JointKnot> knots, double now);
+  JointDrive drive(int joint) const { return definition_.joints[joint].drive; }
+
+  void begin_step(double time, double dt);
+  void end_step();
+  // Articulation
+  void predict(double dt) override;
+  void begin_trial() override;
+  void end_trial() override;
+  void begin_increment() override;
+  void end_increment() override;
+  bool settle() override;
+  void finish() override;
+
+  /// The largest speed of a link's points `corner` [m] away from its origin that drives ask for, `ahead` [s] after
+  /// `start` [s]; [m/s]
+  double largest_speed(std::size_t contact, double corner, double start, double ahead) const;
+  RobotReport report() const;
+  void serialise(StateArchive& archive);
+  /// Numbers that make up its state, for the hash of the run.
+  void hashed(std::vector<double>& numbers) const;
+
+ private:
+  /// A freedom of the engine as part of one of the robot: its velocity is `factor` times that of `freedom`.
+  struct Part {
+    int freedom;
+    double factor;
+    double offset;
+  };
+  struct Link {
+    RigidBody* body;
+    LinkMotion* motion;
+    int link;
+    Eigen::MatrixXd jacobian;  ///< 6 rows, a column each freedom
+    bool responds = false;
+    LinkMotion::Vec6 kept;    ///< velocity without a trial or an increment
+    LinkMotion::Vec6 pushed;  ///< the same
+  };
+
+  int base_freedoms() const { return definition_.base.kind == BaseKind::fixed ? 0 : 6; }
+  void find_parts();
+  void put_links();
+  /// Positions of all joints that move, for the engine.
+  void full_positions();
+  void reduce_mass();
+  void find_jacobian(int link, Eigen::MatrixXd& into);
+  const Eigen::VectorXd& reduced_bias(const Eigen::VectorXd& velocities);
+  void set_laws(double time);
+  JointActions actions_of(std::size_t joint, double time) const;
+  /// Velocities of links by those of the joints.
+  void tell_links(const Eigen::VectorXd& velocities);
+  void find_response();
+  void add_contact(Eigen::VectorXd& momentum, bool pushed) const;
+  void book();
+  void read_sensors();
+  void move();
+  std::string joint_text(std::size_t joint) const;
+
+  RobotDefinition definition_;
+  std::unique_ptr<RobotEngine> engine_;
+  std::vector<Part> parts_;  ///< one for each freedom of the engine
+  std::vector<Link> links_;
+  LinkResponse response_;
+  std::vector<JointTarget> targets_;
+  JointSolution solution_;
+  Pose base_;
+  Eigen::VectorXd positions_;   ///< of joints that can be commanded
+  Eigen::VectorXd velocities_;  ///< with those of the base
+  double time_ = 0.0, dt_ = 0.0;
+  bool predicted_ = false;
+  Twist base_twist_;  ///< of a moving base
+  RobotEnergies energies_;
+  std::vector<double> impulses_, efforts_;  ///< of drives, since the start, and in the last step
+  std::vector<Wrench> sensed_, sensed_sum_;
+  // Kept so that a step allocates nothing of its own.
+  Eigen::VectorXd full_positions_, full_velocities_, bias_, momentum_, with_contact_, start_velocities_, mean_;
+  Eigen::MatrixXd mass_, full_jacobian_, stacked_, responses_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,28 @@
+#include "mpm/rigid/link_motion.hpp"
+
+namespace mpm {
+
+void LinkMotion::push(const Vec3& impulse, const Vec3& point) {
+  Vec6 wrench;
+  wrench << (point - centre_).cross(impulse), impulse;
+  pushed_ += wrench;
+  response_->change.noalias() = response_->matrix.middleCols<6>(6 * place_) * wrench;
+  for (std::size_t l = 0; l < response_->links.size(); ++l) {
+    response_->links[l]->add(response_->change.segment<6>(6 * static_cast<Eigen::Index>(l)));
+  }
+}
+
+Mat3 LinkMotion::compliance_at(const Vec3& point) const {
+  const Vec3 arm = point - centre_;
+  Eigen::Matrix<double, 3, 6> of_point;               // velocity of the point by the twist of the origin
+  of_point << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
+      -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,          //
+      arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
+  return of_point * response_->matrix.block<6, 6>(6 * place_, 6 * place_) * of_point.transpose();
+}
+
+std::string LinkMotion::refused_velocity() const {
+  return "it is a link of a robot, which its joints move; command those";
+}
+
+}  // namespace mpm

@@ -1,0 +1,210 @@
+// robots: URDF files, bases, drives of joints, and links that meet the material, which become rigid bodies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/math/nearest.hpp"
+#include "mpm/rigid/urdf.hpp"
+#include "mpm/robot/poses.hpp"
+#include "mpm/robot/robot_keys.hpp"
+#include "mpm/sections/sections.hpp"
+
+namespace mpm {
+namespace {
+
+/// Dimensions of a joint's numbers: rotations have angles where translations have lengths.
+struct JointDimensions {
+  Dimension position, velocity, effort, stiffness, damping;
+};
+
+JointDimensions dimensions_of(const ModelJoint& joint) {
+  if (joint.kind == ModelJoint::Kind::prismatic) {
+    return {kLength, kVelocity, kForce, {0, 1, -2, 0}, {0, 1, -1, 0}};
+  }
+  return {kAngle, kAngularRate, kTorque, {2, 1, -2, -1}, {2, 1, -1, -1}};
+}
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& one : list) names.push_back(one.name);
+  return names;
+}
+
+/// Names of the keys of a map of links or joints.
+std::vector<std::string> keys_of(const Value& value, const char* what) {
+  if (!value.is_map()) value.fail(fmt::format("write a map of {}, such as {{bucket: {{…}}}}", what));
+  std::vector<std::string> names;
+  for (const auto& entry : value.node()) names.push_back(entry.first.as<std::string>());
+  return names;
+}
+
+BaseDefinition read_base(const Value& value, Scene& scene) {
+  BaseDefinition base;
+  if (value.is_text()) {
+    base.kind = static_cast<BaseKind>(value.choice({"fixed", "free"}));
+    return base;
+  }
+  const Map map = read_keys(value, base_keys(), base);
+  if (const auto pose = map.find("pose")) base.pose = read_pose(*pose, scene.definition.geometry, 0.0);
+  const auto motion = map.find("motion");
+  const auto kind = map.find("kind");
+  if (motion) {
+    if (kind && base.kind != BaseKind::moving) kind->fail("a base with a motion is moving; leave out one of the two");
+    RigidBodyDefinition moved;
+    read_rigid_motion(map, scene.definition.geometry, moved);
+    base.kind = BaseKind::moving;
+    base.velocity = moved.velocity;
+    base.rotation_rate = moved.rotation_rate;
+  }
+  return base;
+}
+
+void read_joint(const Value& value, const ModelJoint& model, JointDefinition& joint) {
+  const JointDimensions dimensions = dimensions_of(model);
+  const Map map = read_keys(value, joint_keys(), joint);
+  const auto position = map.find("position");
+  if (position) joint.position = position->number(dimensions.position);
+  if (!(joint.position >= model.lower && joint.position <= model.upper)) {
+    (position ? *position : value)
+        .fail(
+            fmt::format("the joint starts at {:g}, outside its limits from {:g} to {:g}; write a position within them",
+                        joint.position, model.lower, model.upper));
+  }
+  if (const auto target = map.find("target")) {
+    const Dimension& dimension = joint.drive == JointDrive::velocity   ? dimensions.velocity
+                                 : joint.drive == JointDrive::position ? dimensions.position
+                                                                       : dimensions.effort;
+    joint.target = target->function(dimension);
+  }
+  const auto stiffness = map.find("stiffness"), damping = map.find("damping");
+  if (stiffness) {
+    if (joint.drive != JointDrive::position) stiffness->fail("it is of a drive by position; leave it out");
+    joint.stiffness = stiffness->non_negative(dimensions.stiffness);
+  }
+  if (damping) {
+    if (joint.drive == JointDrive::effort) {
+      damping->fail("a drive by effort has none; that of the joint itself is in the URDF, in <dynamics>");
+    }
+    if (joint.drive == JointDrive::position && joint.stiffness == 0.0) {
+      damping->fail("a drive by position without stiffness is rigid; write stiffness too, or leave it out");
+    }
+    joint.damping = damping->non_negative(dimensions.damping);
+  }
+  if (const auto effort = map.find("effort")) joint.effort = effort->positive(dimensions.effort);
+}
+
+void read_joints(const Map& map, RobotDefinition& robot) {
+  std::vector<std::string> drivable;
+  for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
+    const ModelJoint& model = robot.model.joints[j];
+    if (!model.moves() || model.mimic) continue;
+    JointDefinition joint;
+    joint.joint = static_cast<int>(j);
+    if (!(joint.position >= model.lower && joint.position <= model.upper)) joint.position = model.lower;
+    robot.joints.push_back(joint);
+    drivable.push_back(model.name);
+  }
+  const auto joints = map.find("joints");
+  if (!joints) return;
+  const std::vector<std::string> written = keys_of(*joints, "joints");
+  for (const std::string& name : written) {
+    const auto found = std::find(drivable.begin(), drivable.end(), name);
+    const Value value = joints->child(joints->node()[name], name);
+    if (found == drivable.end()) {
+      const int known = robot.model.find_joint(name);
+      if (known >= 0) {
+        value.fail(robot.model.joints[known].moves() ? "the joint follows another one (mimic); drive that"
+                                                     : "the joint is fixed; leave it out");
+      }
+      value.fail(fmt::format("the robot has no joint '{}'; {}", name, suggest(name, drivable)));
+    }
+    read_joint(value, robot.model.joints[robot.model.find_joint(name)],
+               robot.joints[static_cast<std::size_t>(found - drivable.begin())]);
+  }
+}
+
+/// Links that meet the material, as rigid bodies of the scene named after the robot and the link.
+void read_links(const Map& map, const std::string& path, const FrictionLaw& friction, Scene& scene,
+                RobotDefinition& robot) {
+  const auto links = map.find("links");
+  if (!links) return;
+  const std::vector<Pose> poses = start_poses(robot);
+  for (const std::string& name : keys_of(*links, "links")) {
+    const Value value = links->child(links->node()[name], name);
+    const int link = robot.model.find_link(name);
+    if (link < 0) {
+      value.fail(fmt::format("the robot has no link '{}'; {}", name, suggest(name, names_of(robot.model.links))));
+    }
+    const Map own(value, {"friction"}, {{"pose", "a link is where its joints put it"}});
+    RigidBodyDefinition body;
+    body.name = robot.name + "/" + name;
+    try {
+      body.surface = load_urdf_link(path, name, thinnest_mesh(scene.definition));
+    } catch (const RigidError& error) {
+      value.fail(error.what());
+    }
+    body.pose = poses[static_cast<std::size_t>(link)];
+    const auto own_friction = own.find("friction");
+    body.friction = own_friction ? read_friction(*own_friction) : friction;
+    robot.contacts.push_back({link, body.name});
+    scene.definition.rigid_bodies.push_back(std::move(body));
+    scene.commands.emplace_back();
+  }
+}
+
+void read_sensors(const Map& map, RobotDefinition& robot) {
+  const auto sensors = map.find("sensors");
+  if (!sensors) return;
+  for (const Value& value : sensors->elements()) {
+    const std::string name = value.text();
+    const int joint = robot.model.find_joint(name);
+    if (joint < 0) {
+      value.fail(fmt::format("the robot has no joint '{}'; {}", name, suggest(name, names_of(robot.model.joints))));
+    }
+    robot.sensors.push_back(joint);
+  }
+}
+
+}  // namespace
+
+void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene) {
+  const auto section = root.find("robots");
+  if (!section) return;
+  if (scene.definition.geometry != GeometryKind::solid) {
+    section->fail("robots are of a solid scene; leave geometry out, or write rigid_bodies that move as its links do");
+  }
+  for (const Value& value : section->elements()) {
+    RobotDefinition robot;
+    const Map map = read_keys(value, robot_keys(), robot);
+    robot.name = map.at("name").name();
+    const auto same = [&](const auto& other) { return other.name == robot.name; };
+    const auto& definition = scene.definition;
+    if (std::any_of(definition.robots.begin(), definition.robots.end(), same) ||
+        std::any_of(definition.rigid_bodies.begin(), definition.rigid_bodies.end(), same) ||
+        std::any_of(scene.bodies.begin(), scene.bodies.end(), same)) {
+      value.fail(fmt::format("'{}' is already the name of a body or robot; give each its own name", robot.name));
+    }
+    const Value urdf = map.at("urdf");
+    const std::string path = path_from_scene(urdf);
+    try {
+      robot.model = load_urdf_robot(path);
+    } catch (const RigidError& error) {
+      urdf.fail(error.what());
+    }
+    if (const auto base = map.find("base")) robot.base = read_base(*base, scene);
+    if (robot.base.kind == BaseKind::free && !robot.model.carries_mass(0)) {
+      map.at("base").fail(
+          fmt::format("the base is free, and its link '{}' has no mass or no moment of inertia; write <inertial> with "
+                      "both",
+                      robot.model.links.front().name));
+    }
+    read_joints(map, robot);
+    read_links(map, path, friction, scene, robot);
+    read_sensors(map, robot);
+    scene.definition.robots.push_back(std::move(robot));
+  }
+}
+
+}  // namespace mpm

@@ -36,7 +36,7 @@ class Stacked:
         return stacked
 
     def __dir__(self):
-        return [*super().__dir__(), *(name for name in dir(self._like) if not name.startswith("_"))]
+        return {*super().__dir__(), *(name for name in dir(self._like) if not name.startswith("_"))}
 
     def keys(self):
         """Keys of dicts."""
@@ -76,15 +76,20 @@ def _rows(name, values, like):
 
 
 def row_of(value, place, count, what):
-    """What `value` has for one of `count` rows: entry `place` of an array, or of a list of dicts; a dict is looked
-    through; anything else, tuples and lists of numbers with it, is the same in all rows."""
+    """What `value` has for one of `count` rows: entry `place` of an array, or of a list of dicts or None; of a dict, what
+    its values have, arrays alone having rows; anything else, tuples and lists of numbers with it, is the same in all."""
+    each = isinstance(value, list) and value and all(part is None or isinstance(part, Mapping) for part in value)
+    return _entry(value, place, count, what) if each else _part_of(value, place, count, what)
+
+
+def _part_of(value, place, count, what):
     if isinstance(value, Mapping):
-        return {key: row_of(part, place, count, f"{what} of '{key}'") for key, part in value.items()}
-    by_row = getattr(value, "ndim", 0) > 0 or (
-        isinstance(value, list) and value and all(part is None or isinstance(part, Mapping) for part in value))
-    if not by_row:
-        return value
-    if len(value) != count:
-        raise MpmError(f"{what} has {len(value)} rows; it must have one for each of the {count} simulators. What is the "
+        return {key: _part_of(part, place, count, f"{what} of '{key}'") for key, part in value.items()}
+    return _entry(value, place, count, what) if getattr(value, "ndim", 0) > 0 else value
+
+
+def _entry(rows, place, count, what):
+    if len(rows) != count:
+        raise MpmError(f"{what} has {len(rows)} rows; it must have one for each of the {count} simulators. What is the "
                        "same in all is written as a tuple or a number")
-    return value[place]
+    return rows[place]

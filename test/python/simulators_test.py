@@ -57,6 +57,8 @@ class Stacking(unittest.TestCase):
         self.assertEqual((found["rod"], found["digger"]), ((1, 0, 0), {"boom": 0.2, "arm": 4}))
         self.assertEqual(row_of([{"a": 1}, None, {"a": 3}], 2, 3, "values"), {"a": 3})
         self.assertIsNone(row_of([{"a": 1}, None, {"a": 3}], 1, 3, "values"))
+        scene = {"materials": [{"name": "foam"}], "grid.max": [0.2, 0.12]}  # lists that are values of keys
+        self.assertEqual(row_of(scene, 1, 3, "values"), scene)
         with self.assertRaisesRegex(mpm_ros.MpmError, "velocity of 'plate' has 3 rows; .* each of the 2 simulators"):
             row_of(commands, 1, 2, "velocity")
 

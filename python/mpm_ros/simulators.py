@@ -60,12 +60,12 @@ class Simulators:
         common = changes_of(set)
         changes = [common + changes_of(row_of(values, index, n, "values")) for index in range(n)]
 
-        def start(index):
+        def make(index):
             own = {name: value.replace("{index}", str(index)) if isinstance(value, str) else value
                    for name, value in parameters.items()}
-            self._simulators[index] = Simulator(scene, set=changes[index], own_master=own_master, **own)
+            return Simulator(scene, set=changes[index], own_master=own_master, **own)
 
-        self._start = start
+        self._make = make
         self._simulators = {}
         self._changes = [None] * n  # of the last reset
         self._observations = [None] * n
@@ -74,7 +74,7 @@ class Simulators:
         self._closed = False
         try:
             find_program("simulator")  # raises for all of them
-            _raise_first(in_threads(start, range(n)), "was not started")
+            _raise_first(in_threads(self._start, range(n)), "was not started")
         except BaseException:
             self.close()
             raise
@@ -138,6 +138,9 @@ class Simulators:
         self._keep(found, refused)
         _raise_first({**errors, **refused}, "was not reset")
         return self._observed()
+
+    def _start(self, index):
+        self._simulators[index] = self._make(index)
 
     def _chosen(self, which):
         """Indices."""

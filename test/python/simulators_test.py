@@ -206,6 +206,14 @@ class Failing(unittest.TestCase):
             with self.assertRaisesRegex(mpm_ros.MpmError, f"n is {n}; it must be a whole number"):
                 mpm_ros.Simulators(PRESS, n)
 
+    def test_they_end_where_nothing_refers_to_them(self):
+        namespace = f"/dropped_{os.getpid()}_"
+        sims = mpm_ros.Simulators(PRESS, 2, namespace=namespace + "{index}")
+        obs = sims.step()
+        del sims
+        self.assertEqual(processes_with(namespace), [])
+        np.testing.assert_allclose(obs.time, [SYNC] * 2)
+
     def test_none_is_left_where_one_does_not_start(self):
         namespace = f"/starting_{os.getpid()}_"
         with self.assertRaisesRegex(mpm_ros.MpmError, "simulator 1 was not started: .*cel") as raised:

@@ -51,19 +51,27 @@ class PressEnv:
     SURFACE, THICKNESS, LIMIT = 0.07, 0.06, 0.5  # [m] of the plate's origin at touch, [m], part of the thickness
 
     def __init__(self, periods=50, **parameters):
-        self.action_space = Box([-1.0], [1.0])
-        self.observation_space = Box([-10.0, -1.0, -1.0], [100.0, 1.0, 1.0])
+        self.action_space, self.observation_space = self.spaces()
         self.periods = periods
         self._simulator = mpm_ros.Simulator(SCENE, threads=1, **parameters)
         self._random = np.random.default_rng()
+
+    @staticmethod
+    def spaces():
+        """Of actions and of observations."""
+        return Box([-1.0], [1.0]), Box([-10.0, -1.0, -1.0], [100.0, 1.0, 1.0])
+
+    @staticmethod
+    def draw(random, options=None):
+        """What an episode has of its own: "young" [Pa] and "target" [N]; `options` says some of it."""
+        return {"young": random.uniform(10e3, 40e3), "target": random.uniform(5.0, 20.0), **(options or {})}
 
     def reset(self, *, seed=None, options=None):
         """A new block of foam of 10 to 40 kPa, and a target of 5 to 20 N; `options`: {"young": Pa, "target": N}."""
         if seed is not None:
             self._random = np.random.default_rng(seed)
             self.action_space.random = np.random.default_rng(seed)
-        drawn = {"young": self._random.uniform(10e3, 40e3), "target": self._random.uniform(5.0, 20.0)}
-        drawn.update(options or {})
+        drawn = self.draw(self._random, options)
         self._target = drawn["target"]
         answer = self._simulator.reset({"materials.foam.young": drawn["young"]})
         self._left = self.periods

@@ -36,5 +36,8 @@ if(bridge_sources)
     add_test(NAME python.${name}
       COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/run_python_test ${CATKIN_DEVEL_PREFIX} ${source})
     set_tests_properties(python.${name} PROPERTIES LABELS "python;waits" TIMEOUT 300)
+    if(name MATCHES "^full_")
+      set_tests_properties(python.${name} PROPERTIES LABELS full TIMEOUT 3600)
+    endif()
   endforeach()
 endif()

@@ -2,6 +2,8 @@
 
     Simulator        a simulator node of one's own, or one that runs, stepped in lockstep
     Observation      what a step answers: bodies, contact forces, particles, as NumPy arrays
+    Simulators       many simulators of one scene, stepped at the same time
+    Observations     what they answer, with a row for each
     Recording        a bag, split or whole, as NumPy arrays or pandas
     run_sweep        many runs of one scene with other values
     Sweep            such runs, with their parameters, metrics and recordings
@@ -17,8 +19,9 @@ import pkgutil
 # the build folder's own package has put the sources first, finds them by this.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
-_HOMES = {"MpmError": "errors", "Observation": "simulator", "Particles": "particles", "Recording": "recording",
-          "Simulator": "simulator", "Sweep": "sweep", "SweepRun": "sweep", "Table": "recording", "run_sweep": "sweep"}
+_HOMES = {"MpmError": "errors", "Observation": "simulator", "Observations": "simulators", "Particles": "particles",
+          "Recording": "recording", "Simulator": "simulator", "Simulators": "simulators", "Sweep": "sweep",
+          "SweepRun": "sweep", "Table": "recording", "run_sweep": "sweep"}
 __all__ = list(_HOMES)
 
 

@@ -93,6 +93,17 @@ class NodeProcess:
     def runs(self):
         return self._process.poll() is None
 
+    def ids(self):
+        """Ids of the processes, as far as they run: supervise.py and the node."""
+        if not self.runs():
+            return []
+        own = self._process.pid
+        try:
+            with open(f"/proc/{own}/task/{own}/children", encoding="ascii") as children:
+                return [own, *map(int, children.read().split())]
+        except FileNotFoundError:
+            return []
+
     def failure(self, doing):
         """Why the node is gone, as an exception. Waits until its output is complete."""
         self.end()

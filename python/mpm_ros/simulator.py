@@ -8,6 +8,7 @@ import weakref
 import rosgraph
 
 from . import wire
+from .calls import whole
 from .errors import MpmError
 from .master import close, master_at, master_runs
 from .names import DEFAULT_NAMESPACE, lock_namespace
@@ -151,8 +152,20 @@ class Simulator:
         """Ends the node that this object started, and its master; bags are closed. A second call does nothing."""
         self._closer()
 
+    @property
+    def closed(self):
+        """Whether `close` was called, or the node is gone."""
+        return not self._closer.alive
+
+    @property
+    def process_ids(self):
+        """Ids of the processes that this object started and that run: the one that watches over the node and holds its
+        master, and the node."""
+        return [] if self._process is None else self._process.ids()
+
     # --- what the node does -------------------------------------------------------------------------------------------
 
+    @whole
     def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None, velocity_body=None):
         """Advances by `duration` [s], rounded up to whole sync periods, or by `count` of them; by one when neither is
         given. Commands take effect at its start; each is a dict of bodies:
@@ -165,29 +178,33 @@ class Simulator:
         Returns an Observation. Raises MpmError when a command is refused, the run has ended, or the physics fail."""
         request = dict(advance(duration, count), commands=commands_of(velocity, pose, wrench, velocity_body))
         with self._whole():
-            answer = self._call("step", **request)
+            answer = yield from self._call("step", **request)
             return Observation(answer, self._particles_at(answer.stamp))
 
+    @whole
     def reset(self, set=None):
         """Begins the scene again and returns the Observation at time zero. Also after a failure of the physics. `set`:
         changes to the scene, as in Simulator() and over those given there, for this run and the next ones; None: those of
         the last call."""
         changes = self._changes if set is None else changes_of(set)
         with self._whole():
-            answer = self._call("reset_with", set=changes)
+            answer = yield from self._call("reset_with", set=changes)
             self._changes = changes
             self._begin_run(answer.stamp)
             return Observation(answer, self._particles_at(answer.stamp))
 
+    @whole
     def save_checkpoint(self, path):
         """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder,
         which is the present one for a node that this object started."""
-        return self._call("save_checkpoint", path=path_of(path, "path")).path
+        answer = yield from self._call("save_checkpoint", path=path_of(path, "path"))
+        return answer.path
 
+    @whole
     def load_checkpoint(self, path):
         """Goes on from a checkpoint of the same scene. Returns its simulated time [s]."""
         with self._whole():
-            answer = self._call("load_checkpoint", path=path_of(path, "path"))
+            answer = yield from self._call("load_checkpoint", path=path_of(path, "path"))
             self._begin_run(answer.stamp)
             return answer.time
 
@@ -208,7 +225,7 @@ class Simulator:
             raise self._process.failure("it started")
 
     def _service(self, name):
-        if not self._closer.alive:
+        if self.closed:
             raise MpmError("this simulator is closed")
         if name not in self._connections or self._connections[name].closed:
             with self._failures("it was connected to"):
@@ -229,12 +246,13 @@ class Simulator:
             raise
 
     def _call(self, name, **fields):
+        yield None
         interrupted = self._interrupted
         if interrupted and self._clouds is not None:
             self._follow_particles(self._particle_period)
         service = self._service(name)
         with self._failures(f"it was asked to {name.replace('_', ' ')}"):
-            answer = service.call(**fields)
+            answer = yield from service.calling(**fields)
         if interrupted:
             # The node has answered, so the call that was interrupted is done.
             self.info = self._latched("run_info")

@@ -96,12 +96,17 @@ class ServiceClient:
             "callerid": caller, "service": name, "md5sum": service_class._md5sum, "persistent": "1"})
         self.closed = False
 
-    def call(self, **fields):
-        """The decoded answer to a request with these fields. Raises one of LOST when the node is gone."""
+    def fileno(self):
+        return self._connection.fileno()
+
+    def calling(self, **fields):
+        """Sends a request with these fields, yields itself, and returns the decoded answer (calls.py). Raises one of LOST
+        when the node is gone."""
         request = io.BytesIO()
         self._class._request_class(**fields).serialize(request)
         try:
             self._connection.sendall(_LENGTH.pack(request.tell()) + request.getvalue())
+            yield self
             succeeded = _receive(self._connection, 1)[0]
             answer = _receive_message(self._connection)
         except BaseException:

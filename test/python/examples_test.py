@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The examples run by themselves, as a user starts them; those of the how-to pages on coarse grids. 40 s."""
+"""The examples run by themselves, as a user starts them; those of the how-to pages on coarse grids. 45 s."""
 import os
 import re
 import signal
@@ -51,6 +51,57 @@ class Examples(unittest.TestCase):
     def test_parallel_episodes_are_those_of_one_simulator(self):
         self.expect("the same episodes to the bit", "parallel_episodes.py", "--episodes", "2", "--simulators", "2",
                     "--compare")
+
+    def test_environments_of_a_vector_are_single_ones(self):
+        sys.path.insert(0, source_file("examples"))
+        from press_env import PressEnv
+        from press_vector_env import PressVectorEnv
+        from vector_episodes import policy
+        periods, steps = 4, 10  # two episodes and a half
+        with PressVectorEnv(2, periods) as envs:
+            made = [envs.reset(seed=7)[0]] + [None] * steps
+            self.assertEqual((made[0].shape, envs.action_space.sample().shape), ((2, 3), (2, 1)))
+            rewards, infos = np.zeros((steps, 2)), []
+            for step in range(steps):
+                made[step + 1], rewards[step], terminations, truncations, info = envs.step(policy(made[step]))
+                infos.append(info)
+                self.assertFalse(terminations.any())
+                self.assertEqual(truncations.tolist(), [(step + 1) % periods == 0] * 2)
+        for index in range(2):
+            with PressEnv(periods) as env:
+                observation, drawn = env.reset(seed=7 + index)
+                for step in range(steps):
+                    np.testing.assert_array_equal(made[step][index], observation)
+                    observation, reward, _, truncated, last = env.step(policy(observation[None])[0])
+                    self.assertEqual(rewards[step, index], reward)
+                    if truncated:
+                        info = infos[step]
+                        np.testing.assert_array_equal(info["final_obs"][index], observation)
+                        self.assertEqual(info["final_info"]["time"][index], last["time"])
+                        observation, drawn = env.reset()
+                        self.assertEqual((info["young"][index], info["target"][index]), (drawn["young"], drawn["target"]))
+
+    def test_an_episode_of_a_vector_ends_with_its_simulator_and_the_next_begins(self):
+        sys.path.insert(0, source_file("examples"))
+        from press_vector_env import PressVectorEnv
+        namespace = f"/vector_{os.getpid()}_"
+        with PressVectorEnv(2, namespace=namespace + "{index}") as envs:
+            envs.reset(seed=1)
+            for process in processes_with(f"{program('simulator')} __ns:={namespace}1"):
+                os.kill(process, signal.SIGKILL)
+            observations, rewards, terminations, truncations, infos = envs.step(np.zeros((2, 1)))
+            self.assertEqual((terminations.tolist(), truncations.tolist()), ([False, True], [False, False]))
+            self.assertEqual(rewards[1], -1.0)
+            self.assertIn("killed by signal 9", infos["final_info"]["failure"][1])
+            self.assertEqual((infos["_final_obs"].tolist(), infos["_young"].tolist()), ([False, True], [False, True]))
+            self.assertAlmostEqual(observations[1, 1], (0.07 - 0.075) / 0.06, delta=1e-6)  # it hangs 5 mm above the block
+            self.assertFalse(envs.step(np.zeros((2, 1)))[2].any())
+            with self.assertRaisesRegex(ValueError, "not a number"):
+                envs.step(np.full((2, 1), np.nan))
+
+    def test_episodes_run_in_a_vector(self):
+        self.expect("6 episodes, 0 failed", "vector_episodes.py", "--environments", "3", "--episodes", "2", "--periods",
+                    "10")
 
     def test_a_bucket_weighs_the_sand_that_it_carries(self):
         # Exits with 0 only where weight and mass agree within a tenth.

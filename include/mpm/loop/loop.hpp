@@ -32,6 +32,7 @@ struct Team {
   }
   /// Waits until all threads have come here.
   void meet() const {
+    if (threads == 1) return;
 #pragma omp barrier
   }
 };
@@ -40,6 +41,8 @@ struct Team {
 template <class Work>
 void for_team(const char* name, int threads, Work&& work) {
   const TimeProfile::Part part(name);
+  // Beginning, end and barrier of a parallel region of one thread are calls of the system, too.
+  if (threads == 1) return work(Team{0, 1});
 #pragma omp parallel num_threads(threads)
   work(Team{omp_get_thread_num(), omp_get_num_threads()});
 }

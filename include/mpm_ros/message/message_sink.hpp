@@ -10,6 +10,7 @@
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <ros/time.h>
+#include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -38,6 +39,7 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const Cracks&) {}
   virtual void put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) {}
+  virtual void put(const std::string&, const ros::Time&, const sensor_msgs::JointState&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
 };
 

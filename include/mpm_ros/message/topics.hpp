@@ -9,6 +9,8 @@ namespace mpm_ros::topics {
 constexpr const char* kParticles = "particles";
 constexpr const char* kContactForces = "contact_forces";
 constexpr const char* kBodies = "bodies";
+constexpr const char* kRobots = "robots";
+constexpr const char* kJointStates = "joint_states";  ///< of each robot
 constexpr const char* kCommands = "commands";
 constexpr const char* kSolverState = "solver_state";
 constexpr const char* kGlobalQuantities = "global_quantities";
@@ -28,8 +30,18 @@ constexpr const char* kStep = "step";
 constexpr const char* kSaveCheckpoint = "save_checkpoint";
 constexpr const char* kLoadCheckpoint = "load_checkpoint";
 
-/// `bodies/<name>/<leaf>`
+/// `robots/<name>/<leaf>`
+inline std::string of_robot(const std::string& robot, const std::string& leaf) {
+  return std::string(kRobots) + "/" + robot + "/" + leaf;
+}
+/// True for a robot's link, whose name as a rigid body is `<robot>/<link>`.
+inline bool is_link(const std::string& body) { return body.find('/') != std::string::npos; }
+/// `bodies/<name>/<leaf>`, or of a robot's link `robots/<robot>/links/<link>/<leaf>`
 inline std::string of_body(const std::string& body, const std::string& leaf) {
+  const std::size_t slash = body.find('/');
+  if (slash != std::string::npos) {
+    return of_robot(body.substr(0, slash), "links/" + body.substr(slash + 1) + "/" + leaf);
+  }
   return std::string(kBodies) + "/" + body + "/" + leaf;
 }
 constexpr const char* kWrench = "wrench";

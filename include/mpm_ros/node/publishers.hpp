@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/robot/definition.hpp"
 #include "mpm_ros/message/message_sink.hpp"
 
 namespace mpm_ros {
@@ -21,6 +22,8 @@ class Publishers : public MessageSink {
   void add_global();
   /// The same of cracks.
   void add_cracks();
+  /// The same of a robot's joints and sensors.
+  void add_robot(const mpm::RobotDefinition& robot);
   /// The same of the frame of a scene far from the origin.
   void add_static_frames();
 
@@ -37,6 +40,9 @@ class Publishers : public MessageSink {
   void put(const std::string& topic, const ros::Time&, const SolverState& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const GlobalQuantities& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const Cracks& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const sensor_msgs::JointState& m) override {
+    at(topic).publish(m);
+  }
   void put(const std::string& topic, const ros::Time&, const tf2_msgs::TFMessage& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::PointCloud2& m) override {
     at(topic).publish(m);

@@ -28,6 +28,7 @@
 #include "mpm_ros/message/particle_cloud.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/message/wrench_filter.hpp"
+#include "mpm_ros/record/robot_outputs.hpp"
 
 namespace mpm_ros {
 
@@ -116,6 +117,7 @@ class RunOutputs {
   void write_state(bool with_hash, double real_time_factor);
   void write_particles();
   void write_cracks();
+  void write_robots();
   void write_global();
   bool particles_due() const;
   std_msgs::Header header(const std::string& frame) const;
@@ -132,6 +134,7 @@ class RunOutputs {
   std::vector<std::string> filtered_topics_;
   std::vector<WrenchFilter> filters_;  // filters of each body; empty: none
   std::vector<mpm::Wrench> filtered_;  // body axes
+  RobotOutputs robots_;
   const LocalFrame local_;
   ParticleCloud cloud_;
   mpm::GlobalQuantities global_;

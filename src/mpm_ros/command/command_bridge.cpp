@@ -36,6 +36,7 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
   listen(node, topics::kTfStatic, true);
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
     reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
+    if (topics::is_link(bodies[static_cast<std::size_t>(body)])) continue;  // its joints move it
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);
     subscribe<geometry_msgs::TwistStamped>(node, body, topics::kCmdVelStamped);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVelBody,

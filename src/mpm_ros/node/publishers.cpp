@@ -47,6 +47,16 @@ void Publishers::add_cracks() {
   publishers_[topics::kCrackMarkers] = node_.advertise<visualization_msgs::MarkerArray>(topics::kCrackMarkers, kLarge);
 }
 
+void Publishers::add_robot(const mpm::RobotDefinition& robot) {
+  const std::string joints = topics::of_robot(robot.name, topics::kJointStates);
+  if (publishers_.count(joints) > 0) return;
+  publishers_[joints] = node_.advertise<sensor_msgs::JointState>(joints, kSmall);
+  for (const int sensor : robot.sensors) {
+    const std::string topic = topics::of_robot(robot.name, "sensors/" + robot.model.joints[sensor].name + "/wrench");
+    publishers_[topic] = node_.advertise<geometry_msgs::WrenchStamped>(topic, kSmall);
+  }
+}
+
 bool Publishers::wants(const std::string& topic) const {
   const ros::Publisher& publisher = publishers_.at(topic);
   return publisher.isLatched() || publisher.getNumSubscribers() > 0;

@@ -165,6 +165,7 @@ void RunOutputs::begin(const RunInfo& info) {
   write_contacts();
   write_state(options_.state_hash, 0.0);
   write_cracks();
+  write_robots();
   write_particles();
   write_global();
   end_writing();
@@ -198,6 +199,11 @@ void RunOutputs::serialise(mpm::StateArchive& archive) {
   for (std::size_t body = 0; filters == filters_.size() && cutoff == options_.wrench_cutoff && body < filters; ++body) {
     const mpm::StateArchive::Group group(archive, fmt::format("filter{}", body));
     filters_[body].serialise(archive);
+  }
+  if (!simulation_.definition().robots.empty()) {
+    const mpm::StateArchive::Group group(archive, "robots");
+    if (archive.reading()) robots_.take(simulation_.robots(), mpm::seconds_of(simulation_.time()));
+    robots_.serialise(archive);
   }
   {
     const mpm::StateArchive::Group group(archive, "global");
@@ -234,6 +240,7 @@ void RunOutputs::sync(bool last, double real_time_factor) {
     write_contacts();
     write_state(last || options_.state_hash, real_time_factor);
     write_cracks();
+    write_robots();
   }
   if (last || time % global_period_ == 0) write_global();
   if (last || particles_due()) write_particles();
@@ -404,6 +411,27 @@ void RunOutputs::write_cracks() {
   visualization_msgs::MarkerArray markers = crack_markers(cracks, options_.world_frame, stamp());
   move_to(local_, markers);
   put(topics::kCrackMarkers, markers);
+}
+
+void RunOutputs::write_robots() {
+  if (simulation_.definition().robots.empty()) return;
+  const RobotOutputs::Interval interval = robots_.take(simulation_.robots(), mpm::seconds_of(simulation_.time()));
+  for (std::size_t r = 0; r < interval.now.size(); ++r) {
+    const mpm::RobotReport &now = interval.now[r], &last = interval.last[r];
+    const std::string topic = topics::of_robot(now.name, topics::kJointStates);
+    if (wanted(topic)) {
+      sensor_msgs::JointState message = RobotOutputs::joints(now, last, interval.length);
+      message.header = header({});
+      put(topic, message);
+    }
+    for (const SensorMessage& sensor : RobotOutputs::sensors(now, last, interval.length)) {
+      if (!wanted(sensor.topic)) continue;
+      geometry_msgs::WrenchStamped message;
+      message.header = header(sensor.frame);
+      message.wrench = sensor.wrench;
+      put(sensor.topic, message);
+    }
+  }
 }
 
 void RunOutputs::write_global() {

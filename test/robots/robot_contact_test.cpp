@@ -1,0 +1,150 @@
+// Links on material: a robot whose joints are all prescribed against the same rigid body, efforts of joints against the
+// wrench of the material, a robot much lighter than what it stands on. Cost: 25 s.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "robot_case.hpp"
+
+namespace robot_contact_test {
+
+using namespace mpm;
+using namespace robot_test;
+
+/// Clay under tools; `more`: rigid bodies or robots. Its step is the sync period.
+std::string clay(const std::string& more, const std::string& update = "usavg") {
+  return fmt::format(R"(
+name: clay
+gravity: [0, 0, -9.81]
+grid: {{cell: 0.04, min: [-0.32, -0.2, -0.16], max: [0.32, 0.2, 0.4]}}
+time: {{end: 0.1, cfl: 0.5, sync: 0.0002}}
+method: {{update: {}}}
+materials: [{{name: clay, law: j2_plasticity, density: 1800, young: 2 MPa, poisson: 0.4, yield_stress: 10 kPa}}]
+bodies: [{{name: bed, material: clay, shape: {{box: {{min: [-0.32, -0.2, -0.16], max: [0.32, 0.2, 0]}}}}}}]
+boundaries: {{all: slip, z_max: none}}
+{})",
+                     update, more);
+}
+
+Simulation run_of(const std::string& text, int threads = 1) {
+  provide_robots();
+  return Simulation(build(parse_scene(text, "robot.yaml")), {threads});
+}
+
+std::string gantry() {
+  return fmt::format(R"(robots:
+  - name: gantry
+    urdf: {}
+    base: {{pose: {{position: [0, 0, 0.035]}}}}
+    links: {{plate: {{friction: 0.3}}}}
+    joints:
+      along: {{drive: velocity, target: 0.2}}
+      down: {{drive: velocity, target: "0.4 * (t < 0.05) + 0"}}
+      turn: {{drive: velocity, target: 1}}
+)",
+                     data_file("gantry.urdf"));
+}
+
+// The plate's origin moves on a straight line and it turns about it, so that its motion is a rigid body's to
+// round-off.
+TEST(RobotContact, PrescribedJointsActAsTheSameRigidBody) {
+  Simulation robot = run_of(clay(gantry()), 2);
+  Simulation body = run_of(clay(R"(rigid_bodies:
+  - name: plate
+    shape: {box: {size: [0.16, 0.16, 0.06]}}
+    pose: {position: [0, 0, 0.035]}
+    friction: 0.3
+    motion: {velocity: [0.2, 0, "-0.4 * (t < 0.05) + 0"], rotation_rate: [0, 1, 0]
+      }
+)"));
+  double most = 0.0, apart = 0.0;
+  for (int k = 0; k < 200; ++k) {
+    robot.advance();
+    body.advance();
+    const ContactReport a = robot.take_contact(0), b = body.take_contact(0);
+    most = std::max(most, b.mean.force.norm());
+    apart = std::max(apart, (a.mean.force - b.mean.force).norm());
+  }
+  EXPECT_GT(most, 100.0);
+  EXPECT_LT(apart, 1e-9 * most);
+  EXPECT_LT((robot.bodies()[0].pose.position - body.bodies()[0].pose.position).norm(), 1e-12);
+}
+
+// Each sync period has one step, so its mean wrench is that of the step, about the plate's origin at its start.
+TEST(RobotContact, EffortsAreThoseOfTheMaterialsWrench) {
+  for (const char* update : {"usavg", "implicit"}) {
+    Simulation run = run_of(clay(fmt::format(R"(robots:
+  - name: arm
+    urdf: {}
+    base: {{pose: {{position: [-0.3, 0, 0.035]}}}}
+    links: {{plate: {{friction: 0.3}}}}
+    joints: {{shoulder: {{drive: velocity, target: 0.8}}, elbow: {{drive: velocity, target: -0.4}}}}
+)",
+                                             data_file("press_arm.urdf")),
+                                 update));
+    double most = 0.0, apart = 0.0;
+    for (int k = 0; k < 400; ++k) {
+      const Vec3 origin = run.bodies()[0].pose.position, shoulder(-0.3, 0.0, 0.035);
+      const std::uint64_t steps = run.state().step.steps;
+      run.advance();
+      ASSERT_EQ(run.state().step.steps, steps + 1);
+      const Wrench wrench = run.take_contact(0).mean;
+      const RobotReport robot = run.robots()[0];
+      const double about_elbow = wrench.torque.y();  // the plate's origin is at the elbow
+      const double about_shoulder = about_elbow + (origin - shoulder).cross(wrench.force).y();
+      most = std::max(most, std::abs(about_shoulder));
+      apart = std::max(
+          {apart, std::abs(robot.joints[0].effort + about_shoulder), std::abs(robot.joints[1].effort + about_elbow)});
+    }
+    EXPECT_GT(most, 10.0) << update;
+    EXPECT_LT(apart, 1e-9 * most) << update;
+  }
+}
+
+/// A free leg with stiff joints that falls on the clay from 2 cm.
+std::string leg(const std::string& update) {
+  return clay(fmt::format(R"(robots:
+  - name: leg
+    urdf: {}
+    base: {{kind: free, pose: {{position: [0, 0, 0.26]}}}}
+    links: {{foot: {{friction: 0.5}}}}
+    joints:
+      hip_joint: {{drive: position, stiffness: 20, damping: 0.1}}
+      knee: {{drive: position, stiffness: 20, damping: 0.1}}
+)",
+                          data_file("leg.urdf")),
+              update);
+}
+
+// Lighter than the clay by fifty: stable where a penalty or a body that lags a step behind is not. Nothing drives it,
+// so its energy never exceeds that of the start, but for the half step's fall that the velocities are ahead.
+TEST(RobotContact, ALightLegStandsOnClayWithoutGainingEnergy) {
+  for (const char* update : {"usavg", "implicit"}) {
+    Simulation run = run_of(leg(update));
+    const double start = run.robots()[0].energies.potential;
+    double most = 0.0, speed = 0.0;
+    for (int k = 0; k < 1500; ++k) {
+      run.advance();
+      const RobotReport robot = run.robots()[0];
+      most = std::max(most, robot.energies.kinetic + robot.energies.potential - start);
+      speed = robot.base_twist.linear.norm();
+    }
+    EXPECT_LT(most, 1e-3 * 0.035 * 9.81 * 0.02) << update;
+    EXPECT_LT(speed, 0.05) << update;
+    // Implicit steps let a body act about half a cell, 2 cm, further out (implicit/tool_rows.hpp).
+    const double height = std::string(update) == "implicit" ? 0.26 : 0.24;
+    EXPECT_LT((run.robots()[0].base.position - Vec3(0.0, 0.0, height)).norm(), 0.01) << update;
+  }
+}
+
+TEST(RobotContact, TheSameBitsForAnyNumberOfThreads) {
+  Simulation one = run_of(leg("usavg")), two = run_of(leg("usavg"), 2);
+  for (int k = 0; k < 400; ++k) {
+    one.advance();
+    two.advance();
+  }
+  EXPECT_EQ(one.state_hash(), two.state_hash());
+}
+
+}  // namespace robot_contact_test

@@ -9,7 +9,7 @@ endif()
 
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_updater geometry_msgs message_generation rosbag roscpp rosgraph_msgs roslib sensor_msgs std_msgs std_srvs
-  tf2_eigen tf2_geometry_msgs tf2_ros visualization_msgs)
+  tf2_eigen tf2_geometry_msgs tf2_ros trajectory_msgs visualization_msgs)
 
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 REQUIRED)

@@ -98,6 +98,24 @@ def _of_bodies(commands, what, lengths):
     return [(body, _numbers_of(body, values, lengths, what)) for body, values in commands.items()]
 
 
+def joint_commands_of(joints):
+    """Messages mpm_ros/JointCommand of the dict of robots, each a dict of joints, that `Simulator.step` takes."""
+    from .msg import JointCommand
+    if joints is None:
+        return []
+    if not isinstance(joints, Mapping) or not all(isinstance(of, Mapping) for of in joints.values()):
+        raise MpmError('joints is a dict of robots, each a dict of joints, such as {"digger": {"boom": 0.2}}')
+    commands = []
+    for robot, values in joints.items():
+        for joint, value in values.items():
+            if np.ndim(value) != 0 or not isinstance(value, (int, float, np.number)):
+                raise MpmError(f"joints: '{joint}' of '{robot}' is {value!r}; it must be a number")
+        if values:
+            commands.append(JointCommand(robot=robot, joints=list(values),
+                                         values=[float(value) for value in values.values()]))
+    return commands
+
+
 def commands_of(velocity, pose, wrench, velocity_body=None):
     """Messages mpm_ros/Command of the dicts that `Simulator.step` takes."""
     from .msg import Command

@@ -14,7 +14,7 @@ from .master import close, master_at, master_runs
 from .names import DEFAULT_NAMESPACE, lock_namespace
 from .particles import Particles
 from .process import NodeProcess, find_program
-from .requests import advance, changes_of, commands_of, node_parameters, path_of
+from .requests import advance, changes_of, commands_of, joint_commands_of, node_parameters, path_of
 
 _CLOUD_PATIENCE = 20.0  # [s] wall time for a message that the node has handed to its connection
 _numbers = itertools.count(1)
@@ -43,13 +43,31 @@ class Body:
         self.contact = contact
 
 
+class Robot:
+    """A robot after a step; arrays have a value for each of `joints`.
+
+    name, joints             of the robot, and of all its joints that move
+    position, velocity       (n,) [m] or [rad], [m/s] or [rad/s]
+    effort                   (n,) [N] or [N m] of the drives, mean of the step
+    base_position, base_orientation  (3,) [m], (4,) unit quaternion x, y, z, w
+    base_velocity, base_rotation_rate  (3,) [m/s], (3,) [rad/s]; world axes
+    """
+
+    def __init__(self, state):
+        self.name, self.joints = state.name, state.joints
+        self.position, self.velocity, self.effort = state.position, state.velocity, state.effort
+        self.base_position, self.base_orientation = state.base[:3], state.base[3:]
+        self.base_velocity, self.base_rotation_rate = state.base_twist[:3], state.base_twist[3:]
+
+
 class Observation:
     """What a step answers.
 
     time       [s] simulated since the run's start
     stamp      [ns] of the state reached
     ended      whether the scene's end is reached; `reset` begins again
-    bodies     dict: name to Body
+    bodies     dict: name to Body; a robot's link is <robot>/<link>
+    robots     dict: name to Robot
     pairs      list: contacts between deformable bodies, as in mpm_ros/ContactPair
     particles  Particles: the last snapshot up to `time`, at multiples of `particle_period`. None without that, and
                before the first that comes: that of time zero is sent before anybody listens, except after a reset
@@ -61,6 +79,7 @@ class Observation:
         self.ended = "the run has ended" in answer.message
         contacts = {contact.name: contact for contact in answer.contact_forces.bodies}
         self.bodies = {state.name: Body(state, contacts[state.name]) for state in answer.bodies.bodies}
+        self.robots = {state.name: Robot(state) for state in answer.robots}
         self.pairs = answer.contact_forces.pairs
         self.particles = particles
 
@@ -166,7 +185,8 @@ class Simulator:
     # --- what the node does -------------------------------------------------------------------------------------------
 
     @whole
-    def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None, velocity_body=None):
+    def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None, velocity_body=None,
+             joints=None):
         """Advances by `duration` [s], rounded up to whole sync periods, or by `count` of them; by one when neither is
         given. Commands take effect at its start; each is a dict of bodies:
 
@@ -174,9 +194,13 @@ class Simulator:
         velocity_body  the same in the axes of the body itself, which turn with it
         pose           (7,) position [m] and quaternion x, y, z, w, to be reached at the end of the step
         wrench         (3,) [N] on a free body, or (6,) with the torque [N m] about its origin; world axes
+        joints         a dict of robots, each a dict of joints: {"digger": {"boom": 0.2}}, a velocity [m/s, rad/s], a
+                       position [m, rad], which a rigid drive reaches at the end of the step, or an effort [N, N m], by
+                       the joint's drive
 
         Returns an Observation. Raises MpmError when a command is refused, the run has ended, or the physics fail."""
-        request = dict(advance(duration, count), commands=commands_of(velocity, pose, wrench, velocity_body))
+        request = dict(advance(duration, count), commands=commands_of(velocity, pose, wrench, velocity_body),
+                       joint_commands=joint_commands_of(joints))
         with self._whole():
             answer = yield from self._call("step", **request)
             return Observation(answer, self._particles_at(answer.stamp))

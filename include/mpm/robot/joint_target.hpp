@@ -12,7 +12,7 @@ namespace mpm {
 struct JointKnot {
   double time = 0.0;      ///< [s]
   double position = 0.0;  ///< [m], [rad]
-  double velocity = 0.0;  ///< [m/s], [rad/s]
+  double velocity = 0.0;  ///< [m/s], [rad/s]; not a number: straight lines meet there
 };
 
 class JointTarget {
@@ -21,7 +21,8 @@ class JointTarget {
 
   /// A constant value of the drive's kind from now on.
   void hold(double value);
-  /// Positions by time, joined by cubic polynomials that have the knots' velocities; after the last one it stays there.
+  /// Positions by time, joined by cubic polynomials that have the knots' velocities, or by straight lines where a knot
+  /// has none; after the last one it stays there.
   void follow(std::vector<JointKnot> knots) { knots_ = std::move(knots); }
   bool follows() const { return !knots_.empty(); }
   /// The drive's own quantity at a time. @throws FunctionError when a function is not finite there

@@ -74,11 +74,15 @@ class Robot final : public Articulation {
   const std::string& name() const { return definition_.name; }
   /// Index of a joint that can be commanded. @throws RigidError with the nearest name
   int find_joint(const std::string& name) const;
-  /// A target of the drive's kind from now on. A position that is to be reached without stiffness is approached over
-  /// the time to `arrival`. @throws RigidError when not finite, or beyond the joint's limits
+  /// Checks a target of the drive's kind. @throws RigidError when not finite, or beyond the joint's limits
+  void check_command(int joint, double value) const;
+  /// A target from now on, which has been checked. A position that is to be reached without stiffness is approached
+  /// over the time to `arrival`.
   void command(int joint, double value, double now, double arrival);
-  /// @throws RigidError for knots that do not go on in time, lie before `now`, are beyond limits, or for a drive by
-  /// effort
+  /// Checks a trajectory. @throws RigidError for knots that do not go on in time, have ended before `now` or are beyond
+  /// limits, or for a drive by effort
+  void check_trajectory(int joint, const std::vector<JointKnot>& knots, double now) const;
+  /// Follows a trajectory that has been checked.
   void follow(int joint, std::vector<JointKnot> knots, double now);
   JointDrive drive(int joint) const { return definition_.joints[joint].drive; }
 
@@ -109,13 +113,13 @@ class Robot final : public Articulation {
     double offset;
   };
   struct Link {
-    RigidBody* body;
-    LinkMotion* motion;
-    int link;
+    RigidBody* body = nullptr;
+    LinkMotion* motion = nullptr;
+    int link = 0;
     Eigen::MatrixXd jacobian;  ///< 6 rows, a column each freedom
     bool responds = false;
-    LinkMotion::Vec6 kept;    ///< velocity without a trial or an increment
-    LinkMotion::Vec6 pushed;  ///< the same
+    LinkMotion::Vec6 kept = LinkMotion::Vec6::Zero();    ///< velocity without a trial or an increment
+    LinkMotion::Vec6 pushed = LinkMotion::Vec6::Zero();  ///< the same
   };
 
   int base_freedoms() const { return definition_.base.kind == BaseKind::fixed ? 0 : 6; }

@@ -122,12 +122,14 @@ class Simulation {
   int find_robot(const std::string& name) const;
   /// Index of a robot's joint that can be commanded. @throws RigidError with the nearest name
   int find_joint(int robot, const std::string& joint) const;
-  /// Commands a joint from now on, by the kind of its drive: velocity, position or effort. A position that a rigid
-  /// drive is to reach is approached until `arrival` [ns], which is not before the next sync point.
+  /// Commands joints from now on, each by the kind of its drive: velocity, position or effort. A position that a rigid
+  /// drive is to reach is approached until `arrival` [ns], or the next sync point where that is later.
   /// @throws RigidError when not finite, or outside the joint's limits; nothing is changed then
-  void command_joint(int robot, int joint, double value, std::int64_t arrival);
-  /// Lets a joint follow a trajectory, whose knots are in simulated time. @throws RigidError as Robot::follow() does
-  void follow_trajectory(int robot, int joint, std::vector<JointKnot> knots);
+  void command_joints(int robot, const std::vector<int>& joints, const std::vector<double>& values,
+                      std::int64_t arrival);
+  /// Lets joints follow a trajectory each, whose knots are in simulated time [s]. @throws RigidError as
+  /// Robot::check_trajectory() does; nothing is changed then
+  void follow_trajectory(int robot, const std::vector<int>& joints, std::vector<std::vector<JointKnot>> knots);
   const RigidBody& rigid_body(int body) const;
   /// A number of a rigid body, by one of the names in body_values(): "x" of its origin [m], "vz" [m/s], "wy" [rad/s],
   /// "impulse_x" of contact on it since the start [N s]. @throws DefinitionError for an unknown name

@@ -7,6 +7,7 @@
 #include <mpm_ros/ContactForces.h>
 #include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
+#include <mpm_ros/JointCommand.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <ros/time.h>
@@ -41,6 +42,7 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::JointState&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
+  virtual void put(const std::string&, const ros::Time&, const JointCommand&) {}
 };
 
 }  // namespace mpm_ros

@@ -26,6 +26,7 @@
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/command/joint_bridge.hpp"
 #include "mpm_ros/command/turning_twists.hpp"
 #include "mpm_ros/message/node_health.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
@@ -39,7 +40,14 @@ struct CommandMemory {
   CommandWatch watch;
   CommandLimiter limiter;
   TurningTwists turning;
+  JointQueue joints;
   void serialise(mpm::StateArchive& archive);
+};
+
+/// Commands of a step request.
+struct StepCommands {
+  std::vector<AppliedCommand> bodies;
+  std::vector<JointOrder> joints;
 };
 
 class BodyCommands {
@@ -65,25 +73,31 @@ class BodyCommands {
   };
   /// Applies what is due, then `extra`, then what moves limited bodies. @throws ParameterError when a recorded command
   /// does not fit the scene
-  Outcome apply_due(Run& run, const std::vector<AppliedCommand>& extra);
+  Outcome apply_due(Run& run, const StepCommands& extra);
 
   /// The commands of a request for a step of so many sync periods. `problem`: why they cannot be taken.
-  std::vector<AppliedCommand> read(const std::vector<Command>& requested, std::int64_t periods, const Run& run,
-                                   std::string& problem) const;
+  StepCommands read(const std::vector<Command>& requested, const std::vector<JointCommand>& joints,
+                    std::int64_t periods, const Run& run, std::string& problem) const;
   /// From hold() on, what comes on topics waits for release().
-  void hold() { memory_.queue.hold(); }
-  void release() { memory_.queue.release(); }
+  void hold() {
+    memory_.queue.hold();
+    memory_.joints.hold();
+  }
+  void release() {
+    memory_.queue.release();
+    memory_.joints.release();
+  }
   const std::vector<std::string>& bodies() const { return bodies_; }
   /// A recording is replayed, and nothing else taken.
   bool replays() const { return bridge_ == nullptr; }
   /// Messages on topics so far, refused ones too. Any thread.
-  std::uint64_t received() const { return replays() ? 0 : bridge_->reader().received(); }
+  std::uint64_t received() const { return replays() ? 0 : bridge_->reader().received() + joint_bridge_->received(); }
   /// Waits until so many have come, for `patience` at most. Any thread but that which hears topics; not of a replay.
   bool wait_received(std::uint64_t count, std::chrono::milliseconds patience) const;
 
   /// Those that came late so far.
   LateCommands late() const { return memory_.queue.late(); }
-  std::size_t waiting() const { return memory_.queue.waiting(); }
+  std::size_t waiting() const { return memory_.queue.waiting() + memory_.joints.waiting(); }
   /// Those that more came than could be kept, and had no effect, as of the last housekeeping.
   std::uint64_t dropped() const { return memory_.queue.dropped() + (replays() ? 0 : bridge_->dropped_commands()); }
   std::uint64_t dropped_transforms() const { return replays() ? 0 : bridge_->dropped_transforms(); }
@@ -100,6 +114,8 @@ class BodyCommands {
 
  private:
   std::string apply(Run& run, const AppliedCommand& command);
+  /// The same of a command to joints.
+  std::string apply(Run& run, const JointOrder& order);
   void turn(Run& run);
   void apply_limited(Run& run);
   std::string act_on_silence(Run& run);
@@ -111,7 +127,8 @@ class BodyCommands {
   CommandLog log_;
   CommandMemory memory_;
   ros::CallbackQueue callbacks_;
-  std::unique_ptr<CommandBridge> bridge_;  // none of a replay
+  std::unique_ptr<CommandBridge> bridge_;      // none of a replay
+  std::unique_ptr<JointBridge> joint_bridge_;  // the same
   std::unique_ptr<ros::AsyncSpinner> spinner_;
 };
 

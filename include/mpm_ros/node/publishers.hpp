@@ -48,6 +48,7 @@ class Publishers : public MessageSink {
     at(topic).publish(m);
   }
   void put(const std::string& topic, const ros::Time&, const Command& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const JointCommand& m) override { at(topic).publish(m); }
 
  private:
   ros::Publisher& at(const std::string& topic) { return publishers_.at(topic); }

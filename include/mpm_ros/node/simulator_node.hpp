@@ -93,7 +93,7 @@ class SimulatorNode {
   void begin_run();
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
   /// command was refused: then time has not moved, and `refusal` says why.
-  bool sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal);
+  bool sync_period(const StepCommands& extra, std::string& refusal);
   void fail(const std::string& reason, int exit_code);
   void end_run();
   /// With which the node ends, as things are.

@@ -21,6 +21,7 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
+#include "mpm_ros/command/joint_command.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/markers.hpp"
@@ -70,6 +71,7 @@ class RunOutputs {
   void serialise(mpm::StateArchive& archive);
   /// A command that was applied just now.
   void command(const AppliedCommand& command);
+  void command(const JointOrder& order);
   /// After each advance. `last`: the run ends here, so everything is written, with the state hash.
   /// `real_time_factor`: simulated over wall time so far.
   void sync(bool last, double real_time_factor);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mpm_ros/Command.h>
+#include <mpm_ros/JointCommand.h>
 #include <mpm_ros/RunInfo.h>
 
 #include <cstdint>
@@ -19,6 +20,7 @@ struct Rerun {
   std::string bag;  ///< path
   RunInfo info;
   std::vector<mpm_ros::Command> commands;
+  std::vector<mpm_ros::JointCommand> joint_commands;
   std::int64_t end = 0;            ///< [ns] simulated time of the last state recorded
   std::string state_hash;          ///< hash of the last state that was recorded with one; empty: none was
   std::int64_t hashed_at = 0;      ///< [ns] its time

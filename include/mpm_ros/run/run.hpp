@@ -14,6 +14,7 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
+#include "mpm_ros/command/joint_command.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/record/bag_recorder.hpp"
 #include "mpm_ros/record/run_outputs.hpp"
@@ -55,6 +56,8 @@ class Run {
                             const std::string& failure = {});
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
   void apply(const AppliedCommand& command);
+  /// The same of a command to joints; `again`: one that was recorded as it was applied.
+  void apply(const JointOrder& order, bool again = false);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
   /// @throws mpm::StoppedError; finish() then ends the record with the sync point before. `late`: as in
   /// mpm::Simulation::advance().

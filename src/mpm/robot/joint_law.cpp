@@ -43,11 +43,16 @@ JointLaw::JointLaw(const JointActions& actions, double dt) : count_(0), actions_
     add_vertical(rigid ? std::clamp(a.target, least, most) : least, -kInfinity, kInfinity);
     return;
   }
-  // Velocities where pieces meet, between the limits.
+  // Velocities where pieces meet, between the limits, ascending.
   std::array<double, 4> places{};
   int count = 0;
   const auto meet = [&](double velocity) {
-    if (velocity > least && velocity < most) places[count++] = velocity;
+    if (!(velocity > least && velocity < most)) return;
+    int at = count;
+    while (at > 0 && places[at - 1] > velocity) --at;
+    if (at > 0 && places[at - 1] == velocity) return;
+    for (int i = count++; i > at; --i) places[i] = places[i - 1];
+    places[at] = velocity;
   };
   if (a.friction > 0.0) meet(0.0);
   if (rigid) meet(a.target);
@@ -55,8 +60,6 @@ JointLaw::JointLaw(const JointActions& actions, double dt) : count_(0), actions_
     meet((a.at_rest - a.limit) / a.slope);
     meet((a.at_rest + a.limit) / a.slope);
   }
-  std::sort(places.begin(), places.begin() + count);
-  count = static_cast<int>(std::unique(places.begin(), places.begin() + count) - places.begin());
 
   // Impulse beside a place, without what is vertical there: `from` is a velocity of the interval on that side.
   const auto impulse_at = [&](double velocity, double from) {

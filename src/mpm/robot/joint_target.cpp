@@ -1,6 +1,7 @@
 #include "mpm/robot/joint_target.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mpm {
 
@@ -21,8 +22,11 @@ JointKnot JointTarget::knot_at(double time) const {
                                       [](double t, const JointKnot& knot) { return t < knot.time; });
   if (after == knots_.begin()) return {time, after->position, 0.0};
   const JointKnot &a = *(after - 1), &b = *after;
-  // Cubic Hermite polynomial.
   const double span = b.time - a.time, s = (time - a.time) / span, r = 1.0 - s;
+  if (std::isnan(a.velocity) || std::isnan(b.velocity)) {
+    return {time, r * a.position + s * b.position, (b.position - a.position) / span};
+  }
+  // Cubic Hermite polynomial.
   const double position = (1.0 + 2.0 * s) * r * r * a.position + s * r * r * span * a.velocity +
                           s * s * (3.0 - 2.0 * s) * b.position - s * s * r * span * b.velocity;
   const double velocity = 6.0 * s * r * (b.position - a.position) / span + r * (1.0 - 3.0 * s) * a.velocity +

@@ -67,7 +67,11 @@ Robot::Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector
     if (body == bodies.end()) {
       throw RigidError(fmt::format("robot '{}': no rigid body is called '{}'", definition_.name, contact.body));
     }
-    links_.push_back({&*body, nullptr, contact.link, Eigen::MatrixXd::Zero(6, own), false, {}, {}});
+    Link link;
+    link.body = &*body;
+    link.link = contact.link;
+    link.jacobian = Eigen::MatrixXd::Zero(6, own);
+    links_.push_back(std::move(link));
   }
   full_positions();
   engine_->set_positions(base_, full_positions_);

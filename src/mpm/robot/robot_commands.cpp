@@ -1,6 +1,7 @@
 // Commands to a robot, its report, and its state for checkpoints.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mpm/math/nearest.hpp"
@@ -36,20 +37,21 @@ int Robot::find_joint(const std::string& name) const {
       fmt::format("robot '{}': no joint is called '{}'; {}", definition_.name, name, suggest(name, names)));
 }
 
-void Robot::command(int place, double value, double now, double arrival) {
+void Robot::check_command(int place, double value) const {
   const auto joint = static_cast<std::size_t>(place);
   const JointDefinition& definition = definition_.joints[joint];
   const ModelJoint& model = definition_.model.joints[definition.joint];
   if (!std::isfinite(value)) throw RigidError(joint_text(joint) + fmt::format("is commanded to {}", value));
-  if (definition.drive != JointDrive::position) {
-    targets_[joint].hold(value);
-    return;
-  }
-  if (value < model.lower || value > model.upper) {
+  if (definition.drive == JointDrive::position && (value < model.lower || value > model.upper)) {
     throw RigidError(joint_text(joint) + fmt::format("is commanded to {:g}, outside its limits from {:g} to {:g}",
                                                      value, model.lower, model.upper));
   }
-  if (definition.stiffness > 0.0) {
+}
+
+void Robot::command(int place, double value, double now, double arrival) {
+  const auto joint = static_cast<std::size_t>(place);
+  const JointDefinition& definition = definition_.joints[joint];
+  if (definition.drive != JointDrive::position || definition.stiffness > 0.0) {
     targets_[joint].hold(value);
     return;
   }
@@ -57,7 +59,7 @@ void Robot::command(int place, double value, double now, double arrival) {
   targets_[joint].follow({{now, position, rate}, {arrival, value, rate}});
 }
 
-void Robot::follow(int place, std::vector<JointKnot> knots, double now) {
+void Robot::check_trajectory(int place, const std::vector<JointKnot>& knots, double now) const {
   const auto joint = static_cast<std::size_t>(place);
   const JointDefinition& definition = definition_.joints[joint];
   const ModelJoint& model = definition_.model.joints[definition.joint];
@@ -68,31 +70,30 @@ void Robot::follow(int place, std::vector<JointKnot> knots, double now) {
   if (knots.empty()) throw RigidError(joint_text(joint) + "is given a trajectory without points");
   for (std::size_t k = 0; k < knots.size(); ++k) {
     const JointKnot& knot = knots[k];
-    if (!std::isfinite(knot.time) || !std::isfinite(knot.position) || !std::isfinite(knot.velocity)) {
-      throw RigidError(joint_text(joint) + fmt::format("is given a trajectory whose point {} is not finite", k));
+    const std::string point = joint_text(joint) + fmt::format("is given a trajectory whose point {} ", k);
+    if (!std::isfinite(knot.time) || !std::isfinite(knot.position) || std::isinf(knot.velocity)) {
+      throw RigidError(point + "is not finite");
     }
     if (knot.position < model.lower || knot.position > model.upper) {
-      throw RigidError(
-          joint_text(joint) +
-          fmt::format("is given a trajectory whose point {}, {:g}, is outside its limits from {:g} to {:g}", k,
-                      knot.position, model.lower, model.upper));
+      throw RigidError(point + fmt::format("is at {:g}, outside its limits from {:g} to {:g}", knot.position,
+                                           model.lower, model.upper));
     }
-    if (k > 0 && !(knot.time > knots[k - 1].time)) {
-      throw RigidError(joint_text(joint) + fmt::format("is given a trajectory whose point {} is not later than the one "
-                                                       "before it",
-                                                       k));
-    }
+    if (k > 0 && !(knot.time > knots[k - 1].time)) throw RigidError(point + "is not later than the one before it");
   }
-  if (knots.back().time < now) {
+  if (!(knots.back().time > now)) {
     throw RigidError(joint_text(joint) + fmt::format("is given a trajectory that ended at {:g} s, before the present "
                                                      "{:g} s; stamp it with the time at which it is to begin",
                                                      knots.back().time, now));
   }
-  if (knots.front().time > now) {
-    const Eigen::Index freedom = base_freedoms() + static_cast<Eigen::Index>(place);
-    knots.insert(knots.begin(), {now, positions_[place], velocities_[freedom]});
-  }
-  targets_[joint].follow(std::move(knots));
+}
+
+void Robot::follow(int place, std::vector<JointKnot> knots, double now) {
+  // It goes on from where the joint is.
+  const auto to_come = std::find_if(knots.begin(), knots.end(), [&](const JointKnot& knot) { return knot.time > now; });
+  knots.erase(knots.begin(), to_come);
+  const Eigen::Index freedom = base_freedoms() + static_cast<Eigen::Index>(place);
+  knots.insert(knots.begin(), {now, positions_[place], velocities_[freedom]});
+  targets_[static_cast<std::size_t>(place)].follow(std::move(knots));
 }
 
 RobotReport Robot::report() const {

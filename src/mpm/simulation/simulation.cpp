@@ -194,14 +194,23 @@ int Simulation::find_joint(int robot, const std::string& joint) const {
   return state_->robots.at(robot)->find_joint(joint);
 }
 
-void Simulation::command_joint(int robot, int joint, double value, std::int64_t arrival) {
+void Simulation::command_joints(int robot, const std::vector<int>& joints, const std::vector<double>& values,
+                                std::int64_t arrival) {
   const State& s = *state_;
+  Robot& of = *s.robots.at(robot);
   const std::int64_t end = std::max(arrival, s.time + s.definition.time.sync);
-  s.robots.at(robot)->command(joint, value, seconds_of(s.time), seconds_of(end));
+  for (std::size_t k = 0; k < joints.size(); ++k) of.check_command(joints[k], values[k]);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    of.command(joints[k], values[k], seconds_of(s.time), seconds_of(end));
+  }
 }
 
-void Simulation::follow_trajectory(int robot, int joint, std::vector<JointKnot> knots) {
-  state_->robots.at(robot)->follow(joint, std::move(knots), seconds_of(state_->time));
+void Simulation::follow_trajectory(int robot, const std::vector<int>& joints,
+                                   std::vector<std::vector<JointKnot>> knots) {
+  Robot& of = *state_->robots.at(robot);
+  const double now = seconds_of(state_->time);
+  for (std::size_t k = 0; k < joints.size(); ++k) of.check_trajectory(joints[k], knots[k], now);
+  for (std::size_t k = 0; k < joints.size(); ++k) of.follow(joints[k], std::move(knots[k]), now);
 }
 
 std::vector<BodyState> Simulation::bodies() const {

@@ -15,36 +15,72 @@
 
 namespace mpm_ros {
 
-CommandLog::CommandLog(std::vector<mpm_ros::Command> commands) : commands_(std::move(commands)) {
-  for (std::size_t i = 1; i < commands_.size(); ++i) {
-    if (commands_[i].effect_ns < commands_[i - 1].effect_ns) {
+namespace {
+
+/// @throws BagError when an effect comes before that of the one before it
+template <class Message>
+void check_order(const std::vector<Message>& commands) {
+  for (std::size_t i = 1; i < commands.size(); ++i) {
+    if (commands[i].effect_ns < commands[i - 1].effect_ns) {
       throw BagError(
           fmt::format("command {} takes effect before the one it follows; the log holds more than one run", i));
     }
   }
 }
 
-std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) {
-  std::vector<AppliedCommand> due;
-  for (; next_ < commands_.size() && commands_[next_].effect_ns <= simulation.time(); ++next_) {
-    const mpm_ros::Command& command = commands_[next_];
-    if (command.effect_ns != simulation.time()) {
+/// The commands from `next` on whose time has come, as `read` makes them. `who`: whom a command is for.
+template <class Taken, class Message, class Who, class Read>
+std::vector<Taken> take_due(const std::vector<Message>& commands, std::size_t& next, std::int64_t now, Who&& who,
+                            Read&& read) {
+  std::vector<Taken> due;
+  for (; next < commands.size() && commands[next].effect_ns <= now; ++next) {
+    const Message& command = commands[next];
+    if (command.effect_ns != now) {
       throw BagError(
           fmt::format("a recorded command for '{}' took effect at {} ns, which is no sync point of this run; "
                       "use the scene that was recorded",
-                      command.body, command.effect_ns));
+                      who(command), command.effect_ns));
     }
-    due.push_back(from_message(command, simulation));
+    due.push_back(read(command));
   }
   return due;
 }
 
+template <class Message>
+std::size_t first_at(const std::vector<Message>& commands, std::int64_t time) {
+  std::size_t next = 0;
+  while (next < commands.size() && commands[next].effect_ns < time) ++next;
+  return next;
+}
+
+}  // namespace
+
+CommandLog::CommandLog(std::vector<mpm_ros::Command> commands, std::vector<mpm_ros::JointCommand> joints)
+    : commands_(std::move(commands)), joints_(std::move(joints)) {
+  check_order(commands_);
+  check_order(joints_);
+}
+
+std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) {
+  return take_due<AppliedCommand>(
+      commands_, next_, simulation.time(), [](const mpm_ros::Command& command) { return command.body; },
+      [&](const mpm_ros::Command& command) { return from_message(command, simulation); });
+}
+
+std::vector<JointOrder> CommandLog::take_joints(const mpm::Simulation& simulation) {
+  return take_due<JointOrder>(
+      joints_, next_joint_, simulation.time(), [](const mpm_ros::JointCommand& command) { return command.robot; },
+      [&](const mpm_ros::JointCommand& command) { return from_message(command, simulation); });
+}
+
 void CommandLog::skip_to(std::int64_t time) {
-  for (next_ = 0; next_ < commands_.size() && commands_[next_].effect_ns < time;) ++next_;
+  next_ = first_at(commands_, time);
+  next_joint_ = first_at(joints_, time);
 }
 
 CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
+  std::vector<mpm_ros::JointCommand> joints;
   try {
     for (const std::string& part : parts_of(bag_path)) {
       if (const std::string refused = mpm::refused_input(part); !refused.empty())
@@ -56,6 +92,10 @@ CommandLog read_commands(const std::string& bag_path) {
       for (const rosbag::MessageInstance& instance : view) {
         if (const auto command = instance.instantiate<mpm_ros::Command>()) commands.push_back(*command);
       }
+      rosbag::View joint_view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::JointCommand>()));
+      for (const rosbag::MessageInstance& instance : joint_view) {
+        if (const auto command = instance.instantiate<mpm_ros::JointCommand>()) joints.push_back(*command);
+      }
     }
   } catch (const ros::Exception& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
@@ -66,8 +106,10 @@ CommandLog read_commands(const std::string& bag_path) {
     throw BagError(
         fmt::format("bag {} is damaged: a command in it says to be longer than there is memory for", bag_path));
   }
-  if (commands.empty()) throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command)", bag_path));
-  return CommandLog(std::move(commands));
+  if (commands.empty() && joints.empty()) {
+    throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command or JointCommand)", bag_path));
+  }
+  return CommandLog(std::move(commands), std::move(joints));
 }
 
 }  // namespace mpm_ros

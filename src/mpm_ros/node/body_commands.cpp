@@ -45,6 +45,8 @@ void CommandMemory::serialise(mpm::StateArchive& archive) {
   watch.serialise(archive);
   limiter.serialise(archive);
   turning.serialise(archive);
+  const mpm::StateArchive::Group group(archive, "joints");
+  joints.serialise(archive);
 }
 
 BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const NodeParameters& parameters,
@@ -61,6 +63,8 @@ BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const 
   bridge_ = std::make_unique<CommandBridge>(node, bodies_, frames, parameters.world_frame, memory_.queue, health_,
                                             parameters.tf_time == StampUse::latest,
                                             parameters.command_time == StampUse::latest);
+  joint_bridge_ = std::make_unique<JointBridge>(node, scene.definition.robots, memory_.joints, health_,
+                                                parameters.command_time == StampUse::latest);
 }
 
 void BodyCommands::listen() {
@@ -78,12 +82,15 @@ CommandMemory BodyCommands::fresh_memory(const mpm::Scene& scene) const {
   return {CommandQueue(scene.definition.time.sync),
           CommandWatch(mpm::nanoseconds_of(parameters_.command_timeout)),
           CommandLimiter(std::move(limits), health_),
+          {},
           {}};
 }
 
 void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
   // First: what is being read by the old stamps then comes before it, and goes.
   if (bridge_) bridge_->reader().set_stamps(run.stamps());
+  if (joint_bridge_) joint_bridge_->begin(run.simulation().definition().robots, run.stamps());
+  memory_.joints.take_over(memory.joints);
   memory_.queue.take_over(memory.queue);
   memory_.watch = memory.watch;
   memory_.limiter.take_over(memory.limiter);
@@ -92,10 +99,11 @@ void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
   if (bridge_) bridge_->follower().clear();
 }
 
-BodyCommands::Outcome BodyCommands::apply_due(Run& run, const std::vector<AppliedCommand>& extra) {
+BodyCommands::Outcome BodyCommands::apply_due(Run& run, const StepCommands& extra) {
   if (replays()) {
     try {
       for (const AppliedCommand& command : log_.take(run.simulation())) apply(run, command);
+      for (const JointOrder& order : log_.take_joints(run.simulation())) run.apply(order, true);
     } catch (const BagError& error) {
       throw ParameterError(fmt::format("parameter ~commands, {}: {}", parameters_.commands, error.what()));
     }
@@ -105,8 +113,12 @@ BodyCommands::Outcome BodyCommands::apply_due(Run& run, const std::vector<Applie
   look_at_lag(run);
   bridge_->follower().look(run.stamps().at(now + run.simulation().sync_period()));
   for (const DueCommand& due : memory_.queue.take(now)) apply(run, in_world(due, run.simulation().bodies(), now));
-  for (const AppliedCommand& command : extra) {
+  for (const JointOrder& order : memory_.joints.take(now)) apply(run, order);
+  for (const AppliedCommand& command : extra.bodies) {
     if (const std::string refusal = apply(run, command); !refusal.empty()) return {refusal, {}};
+  }
+  for (const JointOrder& order : extra.joints) {
+    if (const std::string refusal = apply(run, order); !refusal.empty()) return {refusal, {}};
   }
   if (const std::string silence = act_on_silence(run); !silence.empty()) return {{}, silence};
   turn(run);
@@ -195,6 +207,17 @@ std::string BodyCommands::apply(Run& run, const AppliedCommand& command) {
   return {};
 }
 
+std::string BodyCommands::apply(Run& run, const JointOrder& order) {
+  try {
+    run.apply(order);
+  } catch (const mpm::RigidError& error) {
+    const std::string reason = fmt::format("a command of joints: {}", error.what());
+    health_.refuse(reason);
+    return reason;
+  }
+  return {};
+}
+
 /// Reason why the run ends, or empty.
 std::string BodyCommands::act_on_silence(Run& run) {
   const std::int64_t now = run.simulation().time();
@@ -220,10 +243,10 @@ std::string BodyCommands::act_on_silence(Run& run) {
   return {};
 }
 
-std::vector<AppliedCommand> BodyCommands::read(const std::vector<Command>& requested, std::int64_t periods,
-                                               const Run& run, std::string& problem) const {
-  std::vector<AppliedCommand> commands;
-  if (!requested.empty() && replays()) {
+StepCommands BodyCommands::read(const std::vector<Command>& requested, const std::vector<JointCommand>& joints,
+                                std::int64_t periods, const Run& run, std::string& problem) const {
+  StepCommands commands;
+  if ((!requested.empty() || !joints.empty()) && replays()) {
     problem = "recorded commands are being replayed (~commands); others are not taken";
     return commands;
   }
@@ -242,14 +265,22 @@ std::vector<AppliedCommand> BodyCommands::read(const std::vector<Command>& reque
       }
       due.arrival = (arrival + sync - 1) / sync * sync;
     }
-    commands.push_back(in_world(due, run.simulation().bodies(), now));
-    commands.back().stamp_ignored = false;  // a request has no stamp; `requested` is what it was copied with
+    commands.bodies.push_back(in_world(due, run.simulation().bodies(), now));
+    commands.bodies.back().stamp_ignored = false;  // a request has no stamp; `requested` is what it was copied with
+  }
+  for (const mpm_ros::JointCommand& message : joints) {
+    JointOrder order = joint_bridge_->read(message, problem);
+    if (!problem.empty()) return commands;
+    // Without an arrival rigid drives take the whole step.
+    if (order.arrival == 0) order.arrival = now + periods * sync;
+    commands.joints.push_back(std::move(order));
   }
   return commands;
 }
 
 bool BodyCommands::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
-  return bridge_->reader().wait_received(count, patience);
+  const std::uint64_t joints = joint_bridge_->received();
+  return count <= joints || bridge_->reader().wait_received(count - joints, patience);
 }
 
 void BodyCommands::forget_frames() {

@@ -291,7 +291,7 @@ bool SimulatorNode::hand_over(const std::function<void()>& work, std::string& me
   return false;
 }
 
-bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal) {
+bool SimulatorNode::sync_period(const StepCommands& extra, std::string& refusal) {
   try {
     const BodyCommands::Outcome outcome = commands_.apply_due(*run_, extra);
     refusal = outcome.refusal;

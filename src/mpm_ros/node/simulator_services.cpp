@@ -111,6 +111,8 @@ void SimulatorNode::reset_with(const std::vector<std::string>& set, Reset::Respo
   response.stamp = run_->outputs().stamp();
   response.contact_forces = run_->outputs().contact_forces(run_->outputs().contacts());
   response.bodies = run_->outputs().body_states();
+  const std::vector<mpm::RobotReport> robots = run_->simulation().robots();
+  response.robots = to_message(robots, robots, 0.0);
 }
 
 bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& response) const {
@@ -167,16 +169,16 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
 
   std::string problem = step_refused();
   std::int64_t periods = 0;
-  std::vector<AppliedCommand> commands;
-  if (problem.empty() && request.commands.size() > kMostCommands) {
+  StepCommands commands;
+  if (problem.empty() && std::max(request.commands.size(), request.joint_commands.size()) > kMostCommands) {
     problem = fmt::format("the request has {} commands, and a step takes {} at most; send the others with later steps",
-                          request.commands.size(), kMostCommands);
+                          std::max(request.commands.size(), request.joint_commands.size()), kMostCommands);
   }
   if (problem.empty()) periods = periods_of(request, problem);
-  if (problem.empty()) commands = commands_.read(request.commands, periods, *run_, problem);
+  if (problem.empty()) commands = commands_.read(request.commands, request.joint_commands, periods, *run_, problem);
   if (!problem.empty()) {
     response.message = problem;
-    if (!request.commands.empty()) health_.refuse("a step request: " + problem);
+    if (!request.commands.empty() || !request.joint_commands.empty()) health_.refuse("a step request: " + problem);
     return;
   }
 
@@ -184,10 +186,12 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   commands_.hold();
   std::string refusal;
   ContactAverage contacts;
+  const std::vector<mpm::RobotReport> robots = run_->simulation().robots();
+  const std::int64_t start = run_->simulation().time();
   run_->resume_clock();
   std::int64_t done = 0;
   for (; done < periods && !run_->ended() && !ends() && !mailbox_.urgent(); ++done) {
-    if (!sync_period(done == 0 ? commands : std::vector<AppliedCommand>(), refusal)) break;
+    if (!sync_period(done == 0 ? commands : StepCommands(), refusal)) break;
     contacts.add(run_->outputs().contacts());
   }
   commands_.release();
@@ -204,6 +208,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   if (done == 0 || run_->cut_short()) return;
   response.contact_forces = run_->outputs().contact_forces(contacts.take());
   response.bodies = run_->outputs().body_states();
+  response.robots = to_message(run_->simulation().robots(), robots, mpm::seconds_of(run_->simulation().time() - start));
 }
 
 }  // namespace mpm_ros

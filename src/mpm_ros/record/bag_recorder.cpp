@@ -266,6 +266,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const tf
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const JointCommand& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Command& message) {
   write(topic, stamp, message);
 }

@@ -231,6 +231,13 @@ void RunOutputs::command(const AppliedCommand& command) {
   end_writing();
 }
 
+void RunOutputs::command(const JointOrder& order) {
+  ++applied_;
+  const std::string& robot = simulation_.definition().robots.at(static_cast<std::size_t>(order.robot)).name;
+  put(topics::kJointCommands, to_message(order, robot, stamps_));
+  end_writing();
+}
+
 void RunOutputs::sync(bool last, double real_time_factor) {
   read_contacts();
   read_cuts();

@@ -86,11 +86,12 @@ void Run::serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more) 
     more(archive);
     return;
   }
-  std::uint64_t waiting = 0, goals = 0, turning = 0;
+  std::uint64_t waiting = 0, goals = 0, turning = 0, joints = 0;
   archive.value("queue/waiting/rows", waiting);
   archive.value("limiter/goals/rows", goals);
   archive.value("turning/held/rows", turning);
-  if (const std::uint64_t commands = waiting + goals + turning; commands > 0) {
+  archive.value("joints/count", joints);
+  if (const std::uint64_t commands = waiting + goals + turning + joints; commands > 0) {
     throw mpm::CheckpointError(
         fmt::format("the checkpoint has {} commands that wait for their time, are under way within limits or turn with "
                     "their body, which the node alone can give: resume it there, _resume:=FILE",
@@ -114,6 +115,15 @@ void Run::apply(const AppliedCommand& command) {
   mpm_ros::apply(command, simulation_);
   if (!jump.empty()) jump_ = {std::move(jump), command.arrival};
   outputs_.command(command);
+}
+
+void Run::apply(const JointOrder& order, bool again) {
+  if (again) {
+    apply_again(order, simulation_);
+    outputs_.command(order);
+  } else {
+    outputs_.command(mpm_ros::apply(order, simulation_));
+  }
 }
 
 void Run::advance(std::chrono::steady_clock::duration late) {

@@ -153,6 +153,7 @@ class OfflineRun {
         run_->begin();
         while (!run_->ended() && !simulation.on_any_rank(stop_requested())) {
           for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
+          for (const JointOrder& order : commands_.take_joints(simulation)) run_->apply(order, true);
           run_->advance();
           for (const std::string& warning : run_->take_warnings()) {
             progress.clear();
@@ -218,12 +219,11 @@ class OfflineRun {
   void choose_as_recorded(RunOptions& run_options) {
     const RunInfo& info = rerun_->info;
     check_.emplace(*rerun_);
-    commands_ = CommandLog(rerun_->commands);
+    commands_ = CommandLog(rerun_->commands, rerun_->joint_commands);
     run_options.parameters = fmt::format("from_bag: {}\n", mpm::json_text(nlohmann::json(options_.from_bag)));
-    notes_.push_back(
-        fmt::format("{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s",
-                    info.scene, info.version, info.isa, rerun_->commands.size(),
-                    rerun_->commands.size() == 1 ? "" : "s", mpm::seconds_of(rerun_->end)));
+    notes_.push_back(fmt::format(
+        "{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s", info.scene,
+        info.version, info.isa, commands_.size(), commands_.size() == 1 ? "" : "s", mpm::seconds_of(rerun_->end)));
     for (const std::string& change : changed_files(info.files, info.scene_path)) {
       notes_.push_back("warning: " + change);
       check_->differs("a file of the scene has changed");

@@ -78,7 +78,7 @@ class Robots(unittest.TestCase):
             self.assertAlmostEqual(wrenches[1].wrench.force.z, 9.81 - (200 + WEIGHT) / 4, delta=1e-6)
             self.assertAlmostEqual(wrenches[8].wrench.force.z, 9.81, delta=1e-6)
             again = run(program("run_scene"), "--from-bag", bag)
-            self.assertIn("same", again)
+            self.assertIn("equal to the recorded one", again)
 
     def test_topics_command_joints(self):
         with running_master():

@@ -87,6 +87,10 @@ int read_edge(const Value& value, const Scene& scene);
 void read_loads(const Map& root, Scene& scene);
 /// `time` and `output`, because sync points and snapshots are chosen together
 void read_time_and_output(const Map& root, Scene& scene);
+/// A time that is a whole number of sync periods [s].
+double read_sync_periods(const Value& value, const Scene& scene);
+/// `output.terrain`, when sync period and `output.period` are known
+void read_ground_output(const Value& value, Scene& scene);
 /// `sleep`, after bodies, rigid bodies, loads and time
 void read_sleep(const Map& root, Scene& scene);
 /// `target`, after rigid bodies

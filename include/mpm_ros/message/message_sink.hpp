@@ -7,9 +7,11 @@
 #include <mpm_ros/ContactForces.h>
 #include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
+#include <mpm_ros/HeightMap.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <ros/time.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -39,6 +41,8 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
+  virtual void put(const std::string&, const ros::Time&, const HeightMap&) {}
+  virtual void put(const std::string&, const ros::Time&, const sensor_msgs::Image&) {}
 };
 
 }  // namespace mpm_ros

@@ -21,6 +21,8 @@ class Publishers : public MessageSink {
   void add_global();
   /// The same of cracks.
   void add_cracks();
+  /// The same of maps of the ground, latched.
+  void add_ground();
   /// The same of the frame of a scene far from the origin.
   void add_static_frames();
 
@@ -42,6 +44,8 @@ class Publishers : public MessageSink {
     at(topic).publish(m);
   }
   void put(const std::string& topic, const ros::Time&, const Command& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const HeightMap& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const sensor_msgs::Image& m) override { at(topic).publish(m); }
 
  private:
   ros::Publisher& at(const std::string& topic) { return publishers_.at(topic); }

@@ -43,6 +43,7 @@ std::vector<KeySection> make_sections() {
       section_of(fracture_keys(), "scene/cracks.md"),  section_of(sleep_keys(), "scene/sleep.md"),
       section_of(output_keys(), "scene/output.md"),    section_of(pace::target_keys(), "scene/target.md")};
   sections.insert(sections.end(), others.begin(), others.end());
+  sections.push_back(section_of(ground_keys(), "scene/output.md"));
   return sections;
 }
 

@@ -47,6 +47,13 @@ void Publishers::add_cracks() {
   publishers_[topics::kCrackMarkers] = node_.advertise<visualization_msgs::MarkerArray>(topics::kCrackMarkers, kLarge);
 }
 
+void Publishers::add_ground() {
+  if (publishers_.count(topics::kTerrain) > 0) return;
+  publishers_[topics::kTerrain] = node_.advertise<HeightMap>(topics::kTerrain, kLarge, true);
+  publishers_[topics::kTerrainCloud] = node_.advertise<sensor_msgs::PointCloud2>(topics::kTerrainCloud, kLarge, true);
+  publishers_[topics::kTerrainImage] = node_.advertise<sensor_msgs::Image>(topics::kTerrainImage, kLarge, true);
+}
+
 bool Publishers::wants(const std::string& topic) const {
   const ros::Publisher& publisher = publishers_.at(topic);
   return publisher.isLatched() || publisher.getNumSubscribers() > 0;

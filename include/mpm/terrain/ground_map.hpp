@@ -33,7 +33,7 @@ class GroundMap {
   /// Facts that the particles of a body have in common.
   struct Body {
     std::size_t first = 0, last = 0;  ///< rows of its particles, by id
-    Vec3 half = Vec3::Zero();         ///< of a whole particle's box at the start [m]
+    Vec3 half = Vec3::Zero();         ///< half edges of a whole particle's box at the start [m]
     double volume = 0.0;              ///< the same [m^3]
   };
   std::vector<Body> bodies_;

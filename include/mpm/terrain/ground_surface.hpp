@@ -30,7 +30,7 @@ struct GroundRaster {
   int columns = 0, rows = 1;
 };
 
-/// What a particle fills: a box around its centre.
+/// Box around its centre that a particle fills.
 struct GroundGrain {
   Vec3 centre = Vec3::Zero();  ///< [m]
   Vec3 half = Vec3::Zero();    ///< half of its edges [m]; y does not count in planar scenes
@@ -75,7 +75,7 @@ class GroundSurface {
   int bottom_ = 0;                   ///< lowest layer of the ground
   std::vector<double> wide_, deep_;  ///< sizes of columns along x and y [m]
   std::vector<double> fill_;         ///< part of each cell that is filled
-  std::vector<float> moment_;        ///< of the fill about the middle of its layer [layers]
+  std::vector<float> moment_;        ///< moment of the fill about the middle of its layer [layers]
   std::vector<std::uint32_t> label_;
   std::vector<std::size_t> stack_;
   std::vector<double> shares_[3];

@@ -10,6 +10,7 @@
 #include <mpm_ros/HeightMap.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
+#include <mpm_ros/Volumes.h>
 #include <ros/time.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -42,6 +43,7 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
   virtual void put(const std::string&, const ros::Time&, const HeightMap&) {}
+  virtual void put(const std::string&, const ros::Time&, const Volumes&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::Image&) {}
 };
 

@@ -14,6 +14,7 @@ constexpr const char* kSolverState = "solver_state";
 constexpr const char* kGlobalQuantities = "global_quantities";
 constexpr const char* kCracks = "cracks";
 constexpr const char* kCrackMarkers = "crack_markers";  ///< a line a face
+constexpr const char* kVolumes = "volumes";
 constexpr const char* kTerrain = "terrain";             ///< heights of the ground, latched
 constexpr const char* kTerrainCloud = "terrain_cloud";  ///< the same as points, with the change since the start
 constexpr const char* kTerrainImage = "terrain_image";  ///< the same as an image

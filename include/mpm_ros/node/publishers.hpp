@@ -23,6 +23,8 @@ class Publishers : public MessageSink {
   void add_cracks();
   /// The same of maps of the ground, latched.
   void add_ground();
+  /// The same of the material in volumes.
+  void add_volumes();
   /// The same of the frame of a scene far from the origin.
   void add_static_frames();
 
@@ -45,6 +47,7 @@ class Publishers : public MessageSink {
   }
   void put(const std::string& topic, const ros::Time&, const Command& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const HeightMap& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const Volumes& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::Image& m) override { at(topic).publish(m); }
 
  private:

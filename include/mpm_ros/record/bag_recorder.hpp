@@ -70,6 +70,7 @@ class BagRecorder : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const HeightMap& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const Volumes& message) override;
 
  private:
   void open();

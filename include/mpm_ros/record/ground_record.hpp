@@ -36,7 +36,7 @@ class GroundRecord {
   const std::int64_t period_;  // [ns]
   const mpm::GroundRaster whole_;
   mpm::GroundMap ground_;
-  std::vector<double> start_;  // of all points; empty before the first map
+  std::vector<double> start_;  // heights of all points; empty before the first map
   mpm::HeightGrid map_, told_;
   std::vector<double> before_;
 };

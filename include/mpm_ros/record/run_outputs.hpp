@@ -121,6 +121,7 @@ class RunOutputs {
   void write_particles();
   void write_cracks();
   void write_global();
+  void write_volumes();
   /// `all`: whether or not the ground has changed.
   void write_ground(bool all);
   bool particles_due() const;

@@ -1,4 +1,5 @@
-// What reading and writing of GeoTIFF have in common: tags, keys, and the messages of libtiff. Private to this folder.
+// Parts that reading and writing of GeoTIFF have in common: tags, keys, and the messages of libtiff. Private to this
+// folder.
 #pragma once
 
 #include <tiffio.h>

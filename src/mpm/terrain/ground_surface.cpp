@@ -90,7 +90,7 @@ void GroundSurface::fit(const GroundRaster& raster, const std::vector<GroundGrai
 
 void GroundSurface::add(const GroundGrain& grain) {
   Vec3 low = grain.centre - grain.half, high = grain.centre + grain.half;
-  // What would reach out of the domain is within: its volume is there.
+  // Keeps the whole volume within the domain.
   for (const int axis : {0, 1}) {
     low[axis] = std::min(std::max(low[axis], room_.min[axis]), grain.centre[axis]);
     high[axis] = std::max(std::min(high[axis], room_.max[axis]), grain.centre[axis]);
@@ -210,7 +210,7 @@ double GroundSurface::height(int column, int row) const {
       over_full = floor_ + (layer + total) * layer_;
   }
   if (over_full) return *over_full;
-  // Of a ledge: its middle and half of its thickness.
+  // Middle of a ledge, and half of its thickness.
   return floor_ + (moment / total + 0.5 + 0.5 * total) * layer_;
 }
 

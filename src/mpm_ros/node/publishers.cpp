@@ -47,6 +47,11 @@ void Publishers::add_cracks() {
   publishers_[topics::kCrackMarkers] = node_.advertise<visualization_msgs::MarkerArray>(topics::kCrackMarkers, kLarge);
 }
 
+void Publishers::add_volumes() {
+  ros::Publisher& publisher = publishers_[topics::kVolumes];
+  if (!publisher) publisher = node_.advertise<Volumes>(topics::kVolumes, kSmall);
+}
+
 void Publishers::add_ground() {
   if (publishers_.count(topics::kTerrain) > 0) return;
   publishers_[topics::kTerrain] = node_.advertise<HeightMap>(topics::kTerrain, kLarge, true);

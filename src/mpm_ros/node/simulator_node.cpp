@@ -203,6 +203,7 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   }
   if (!subject->scene.output.global.empty()) publishers_->add_global();
   if (subject->scene.definition.cracks.any()) publishers_->add_cracks();
+  if (!subject->scene.definition.volumes.empty()) publishers_->add_volumes();
   if (subject->scene.output.ground) publishers_->add_ground();
   if (local_frame(subject->scene.definition.grid, parameters_.world_frame).apart()) publishers_->add_static_frames();
   std::unique_ptr<Run> run;

@@ -266,6 +266,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const se
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Command& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Volumes& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const HeightMap& message) {
   write(topic, stamp, message);
 }

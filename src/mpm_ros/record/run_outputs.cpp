@@ -168,6 +168,7 @@ void RunOutputs::begin(const RunInfo& info) {
   write_contacts();
   write_state(options_.state_hash, 0.0);
   write_cracks();
+  write_volumes();
   write_particles();
   write_global();
   write_ground(true);
@@ -180,6 +181,7 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_cracks();
+  write_volumes();
   write_particles();
   if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
   write_ground(true);
@@ -245,6 +247,7 @@ void RunOutputs::sync(bool last, double real_time_factor) {
     write_contacts();
     write_state(last || options_.state_hash, real_time_factor);
     write_cracks();
+    write_volumes();
   }
   if (last || time % global_period_ == 0) write_global();
   if (ground_ && (last || ground_->due(time))) write_ground(last);
@@ -271,7 +274,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
     if (!average_.empty()) write_contacts();  // writes none if a run that failed within a period has
   }
   write_state(true, real_time_factor);
-  if (failed || cracks_at_ != simulation_.time()) write_cracks();
+  if (failed || cracks_at_ != simulation_.time()) write_cracks(), write_volumes();
   if (failed || particles_at_ != simulation_.time()) write_particles();
   if (failed || global_at_ != simulation_.time()) write_global();
   if (failed || ground_at_ != simulation_.time()) write_ground(true);
@@ -425,6 +428,13 @@ void RunOutputs::write_global() {
   global_message_.header = header(options_.world_frame);
   global_message_.values = global_.read();
   put(topics::kGlobalQuantities, global_message_);
+}
+
+void RunOutputs::write_volumes() {
+  if (simulation_.definition().volumes.empty() || !wanted(topics::kVolumes)) return;
+  Volumes message = to_message(simulation_.volumes());
+  message.header = header(options_.world_frame);
+  put(topics::kVolumes, message);
 }
 
 void RunOutputs::write_ground(bool all) {

@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
   app.add_option("--vtk", options.vtk, "write files for ParaView to this folder (open run.pvd)");
   app.add_option("--csv", options.csv, "write tables (contact forces, bodies, solver state, particles) to this folder");
   app.add_option("--summary", options.summary, "write the run's numbers as JSON to this file");
+  app.add_option("--terrain", options.terrain,
+                 "write the heights of the ground at the end to this GeoTIFF, which another scene can begin with");
   app.add_option("--checkpoint", options.checkpoint,
                  "save the run to this HDF5 file at its end, or when it is stopped");
   app.add_option("--checkpoint-every", options.checkpoint_every,

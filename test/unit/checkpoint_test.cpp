@@ -157,6 +157,9 @@ std::vector<Case> cases() {
   // Tools.
   add(kTool, "points", {});
   add(kTool, "points_adhere", {"contact={static_friction: 0.6, friction: 0.2, adhesion: 500 Pa}", "method.shape=cpdi"});
+  add(kTool, "volumes",
+      {"volumes=[{name: pit, shape: {box: {size: [0.5, 0.6]}}, pose: {position: [0.8, 0.3]}}, "
+       "{name: under, of: press, shape: {box: {size: [0.4, 0.2]}}, pose: {position: [0, -0.3]}}]"});
   add(kTool, "points_xpic", {"method.transfer={xpic: 2}"});
   add(kTool, "nodes", {"contact={method: nodes, friction: 0.2}"});
   add(kTool, "particles", {"rigid_bodies.press.normals=particles", "contact={adhesion: 200 Pa}"});

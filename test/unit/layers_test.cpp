@@ -24,7 +24,7 @@ const Layers kLayers = {{"math", 1},    {"loop", 1},        {"grid", 2},      {"
                         {"sleep", 5},   {"transport", 5},   {"implicit", 6},  {"crack", 6},     {"definition", 7},
                         {"rules", 8},   {"choice", 8},      {"modules", 9},   {"start", 9},     {"simulation", 10},
                         {"pace", 11},   {"checkpoint", 11}, {"scene", 12},    {"yaml", 13},     {"terrain", 14},
-                        {"advice", 15}, {"building", 16},   {"sections", 16}, {"sweep", 17}};
+                        {"advice", 15}, {"building", 16},   {"sections", 16}, {"sweep", 17},    {"volumes", 5}};
 const Layers kRosLayers = {{"message", 1}, {"csv", 2},    {"command", 3}, {"sweep", 3}, {"aim", 4},
                            {"report", 4},  {"record", 5}, {"run", 6},     {"node", 7},  {"sweeping", 7}};
 

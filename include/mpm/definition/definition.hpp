@@ -32,6 +32,7 @@
 #include "mpm/step/schedule.hpp"
 #include "mpm/step/transfer.hpp"
 #include "mpm/transport/definition.hpp"
+#include "mpm/volumes/volume_definition.hpp"
 
 namespace mpm {
 
@@ -216,6 +217,7 @@ struct SimulationDefinition {
   std::optional<SleepDefinition> sleep;
   TransportDefinition transport;
   CracksDefinition cracks;
+  std::vector<VolumeDefinition> volumes;
   std::vector<MetricDefinition> metrics;
   std::vector<std::string> warnings = {};  ///< one line each, of who made the definition
 

@@ -51,5 +51,6 @@ void add_sleep(RunParts& parts);
 void add_step_limit(RunParts& parts);
 void add_transport(RunParts& parts);
 void add_cracks(RunParts& parts);
+void add_volumes(RunParts& parts);
 
 }  // namespace mpm

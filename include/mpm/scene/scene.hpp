@@ -75,6 +75,16 @@ struct CommandDefinition {
   MotionLimits limits;  ///< limits within which commands are kept
 };
 
+/// Maps of the ground's height (terrain/ground_map.hpp), as they are given out over time.
+struct GroundOutput {
+  double period = 0.0;      ///< time between two maps, a multiple of the sync period [s]
+  double resolution = 0.0;  ///< distance between points [m]
+  double change = 0.0;      ///< a map is given out if a height differs from that of the last one by more than this [m]
+  std::string of;           ///< deformable body that alone is ground; empty: all
+  std::string follows;      ///< rigid body that a window follows; empty: maps are of the whole domain
+  Vec2 window = Vec2::Zero();  ///< size of the window along x and y [m]
+};
+
 /// The output of a run.
 struct OutputDefinition {
   double period = 0.0;         ///< time between particle snapshots, a multiple of the sync period [s]
@@ -85,6 +95,7 @@ struct OutputDefinition {
   std::optional<Box> particle_region;  ///< region outside which particles are not written [m]
   std::vector<GlobalQuantity> global;  ///< global quantities, written over time
   double global_period = 0.0;          ///< time between them, a multiple of the sync period [s]
+  std::optional<GroundOutput> ground;  ///< `terrain`
 };
 
 struct Scene {

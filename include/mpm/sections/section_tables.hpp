@@ -8,6 +8,7 @@
 namespace mpm {
 
 const KeyTable<OutputDefinition>& output_keys();
+const KeyTable<GroundOutput>& ground_keys();
 const KeyTable<BodyDefinition>& body_keys();
 const KeyTable<RigidBodyDefinition>& rigid_body_keys();
 const KeyTable<AutoMethod>& auto_keys();

@@ -52,6 +52,8 @@ void read_contact_pairs(const Map& root, Scene& scene);
 ContactLaw read_contact_law(const Map& map, bool needs_friction);
 /// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition.
 void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
+/// The first two of them.
+void read_rigid_place(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
 /// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; for a ring that can open it also sets the inner
 /// radius. @throws RigidError for numbers that make no body.
@@ -91,6 +93,10 @@ int read_edge(const Value& value, const Scene& scene);
 void read_loads(const Map& root, Scene& scene);
 /// `time` and `output`, because sync points and snapshots are chosen together
 void read_time_and_output(const Map& root, Scene& scene);
+/// A time that is a whole number of sync periods [s].
+double read_sync_periods(const Value& value, const Scene& scene);
+/// `output.terrain`, when sync period and `output.period` are known
+void read_ground_output(const Value& value, Scene& scene);
 /// `sleep`, after bodies, rigid bodies, loads and time
 void read_sleep(const Map& root, Scene& scene);
 /// `target`, after rigid bodies
@@ -130,7 +136,9 @@ void add_fracture_keys(const Value& material, const Map& root, std::vector<std::
 FractureConstants read_fracture_constants(const Map& map, const CracksDefinition& cracks);
 /// Two numbers along x and z.
 Vec2 read_plane_vector(const Value& value, const Dimension& dimension);
-/// `metrics`, after bodies
+/// `volumes`, after rigid bodies
+void read_volumes(const Map& root, Scene& scene);
+/// `metrics`, after bodies and volumes
 void read_metrics(const Map& root, Scene& scene);
 
 /// A number >= 0 or the word stick.

@@ -138,6 +138,8 @@ class Simulation {
   /// The explicit cracks and their tips; empty without any.
   std::vector<CrackReport> cracks() const;
   std::vector<CrackTipReport> crack_tips() const;
+  /// Material in the volumes of the scene, in its order; empty without any.
+  std::vector<VolumeReport> volumes() const;
   /// Account of what time.budget has done to implicit steps (implicit/sweep_budget.hpp); null without one.
   const SweepBudget* budget() const;
   /// Ends the sweeps of these steps as they ended in another run, in place of the clock. Ignored without a budget.

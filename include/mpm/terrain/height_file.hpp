@@ -1,4 +1,4 @@
-// Tables of heights from files: text, images (PGM, PNG) and GeoTIFF.
+// Tables of heights from files: text, images (PGM, PNG) and GeoTIFF; and to GeoTIFF.
 #pragma once
 
 #include <istream>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpm/math/geometry.hpp"
+#include "mpm/rigid/surface.hpp"
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
@@ -52,6 +53,11 @@ HeightTable read_height_png(const std::string& path, const HeightLimit& limit);
 /// B.6), the unit of heights from VerticalUnits and VerticalGeoKey, and holes from GDAL_NODATA. A map whose coordinates
 /// are degrees has no span. @throws SceneError
 HeightTable read_height_tiff(const std::string& path, const HeightLimit& limit);
+/// Writes heights as GeoTIFF, which the above reads back to the bit: 64 bits a height, in metres, NaN for a hole,
+/// placed by the points themselves (PixelIsPoint). A planar map has one line. Replaces a file when the new one is
+/// whole.
+/// @throws SceneError where it cannot be written
+void write_height_tiff(const std::string& path, const HeightGrid& map);
 /// Refuses a table without points, or of more than the limit. @throws SceneError
 void check_height_points(const std::string& path, double columns, double rows, const HeightLimit& limit);
 

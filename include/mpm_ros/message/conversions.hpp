@@ -12,6 +12,7 @@
 #include <mpm_ros/ContactPair.h>
 #include <mpm_ros/Cracks.h>
 #include <mpm_ros/SolverState.h>
+#include <mpm_ros/Volumes.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <string>
@@ -19,6 +20,7 @@
 
 #include "mpm/definition/report.hpp"
 #include "mpm/rigid/motion.hpp"
+#include "mpm/volumes/volume_definition.hpp"
 
 namespace mpm_ros {
 
@@ -51,6 +53,7 @@ mpm_ros::BodyState to_message(const mpm::BodyState& state);
 mpm_ros::ContactForce to_message(const mpm::ContactReport& report);
 mpm_ros::ContactPair to_message(const mpm::PairReport& report);
 /// Without a header.
+mpm_ros::Volumes to_message(const std::vector<mpm::VolumeReport>& volumes);
 mpm_ros::Cracks to_message(const std::vector<mpm::CrackReport>& cracks, const std::vector<mpm::CrackTipReport>& tips);
 /// All but the header, real_time_factor, state_hash, and what only the run knows: commands and failure.
 mpm_ros::SolverState to_message(const mpm::SolverState& state);

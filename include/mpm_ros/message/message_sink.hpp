@@ -7,10 +7,13 @@
 #include <mpm_ros/ContactForces.h>
 #include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
+#include <mpm_ros/HeightMap.h>
 #include <mpm_ros/JointCommand.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
+#include <mpm_ros/Volumes.h>
 #include <ros/time.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
@@ -43,6 +46,9 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::JointState&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
   virtual void put(const std::string&, const ros::Time&, const JointCommand&) {}
+  virtual void put(const std::string&, const ros::Time&, const HeightMap&) {}
+  virtual void put(const std::string&, const ros::Time&, const Volumes&) {}
+  virtual void put(const std::string&, const ros::Time&, const sensor_msgs::Image&) {}
 };
 
 }  // namespace mpm_ros

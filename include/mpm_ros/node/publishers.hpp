@@ -24,6 +24,10 @@ class Publishers : public MessageSink {
   void add_cracks();
   /// The same of a robot's joints and sensors.
   void add_robot(const mpm::RobotDefinition& robot);
+  /// The same of maps of the ground, latched.
+  void add_ground();
+  /// The same of the material in volumes.
+  void add_volumes();
   /// The same of the frame of a scene far from the origin.
   void add_static_frames();
 
@@ -49,6 +53,9 @@ class Publishers : public MessageSink {
   }
   void put(const std::string& topic, const ros::Time&, const Command& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const JointCommand& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const HeightMap& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const Volumes& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const sensor_msgs::Image& m) override { at(topic).publish(m); }
 
  private:
   ros::Publisher& at(const std::string& topic) { return publishers_.at(topic); }

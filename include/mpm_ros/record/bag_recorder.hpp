@@ -20,6 +20,7 @@
 
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/message_sink.hpp"
+#include "mpm_ros/message/topics.hpp"
 
 namespace mpm_ros {
 
@@ -54,7 +55,8 @@ class BagRecorder : public MessageSink {
   /// @throws BagError when the end of the file cannot be written.
   void close();
 
-  bool wants(const std::string&) const override { return bag_ != nullptr; }
+  /// All but what another topic has in another form.
+  bool wants(const std::string& topic) const override { return bag_ != nullptr && topic != topics::kTerrainImage; }
   // Each @throws BagError when it cannot be written and the record is required; once, then nothing more is written.
   void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const visualization_msgs::MarkerArray& message) override;
@@ -69,6 +71,8 @@ class BagRecorder : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const HeightMap& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const Volumes& message) override;
 
  private:
   void open();

@@ -14,6 +14,8 @@
 
 #include <cstdint>
 #include <exception>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,7 @@
 #include "mpm_ros/message/particle_cloud.hpp"
 #include "mpm_ros/message/stamps.hpp"
 #include "mpm_ros/message/wrench_filter.hpp"
+#include "mpm_ros/record/ground_record.hpp"
 #include "mpm_ros/record/robot_outputs.hpp"
 
 namespace mpm_ros {
@@ -41,6 +44,7 @@ struct OutputOptions {
   double wrench_cutoff = 0.0;    ///< [Hz] of the filtered wrenches; 0: there are none
   std::vector<mpm::GlobalQuantity> global;
   double global_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
+  std::optional<mpm::GroundOutput> ground;
   std::string world_frame = "world";
   /// Frames that somebody else publishes: a body of such a name has no transform in /tf. Empty names do not count.
   std::vector<std::string> others;
@@ -121,6 +125,9 @@ class RunOutputs {
   void write_cracks();
   void write_robots();
   void write_global();
+  void write_volumes();
+  /// `all`: whether or not the ground has changed.
+  void write_ground(bool all);
   bool particles_due() const;
   std_msgs::Header header(const std::string& frame) const;
 
@@ -141,6 +148,7 @@ class RunOutputs {
   ParticleCloud cloud_;
   mpm::GlobalQuantities global_;
   GlobalQuantities global_message_;
+  std::unique_ptr<GroundRecord> ground_;  // null where the scene asks for no maps
   ForceMarkers force_markers_;
   Contacts contacts_;
   ContactAverage average_;
@@ -157,6 +165,7 @@ class RunOutputs {
   std::int64_t contacts_at_ = -1;   // [ns] the same
   std::int64_t global_at_ = -1;     // [ns] the same
   std::int64_t cracks_at_ = -1;     // [ns] the same
+  std::int64_t ground_at_ = -1;     // [ns] the same
   bool finished_ = false;
   std::exception_ptr failed_sink_;  // over several ranks: why, until all know
 };

@@ -29,6 +29,7 @@ class CsvSink : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const HeightMap& message) override;
 
  private:
   Stamps stamps_;

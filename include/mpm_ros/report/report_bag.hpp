@@ -9,6 +9,7 @@
 #include <mpm_ros/ContactForces.h>
 #include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
+#include <mpm_ros/HeightMap.h>
 #include <mpm_ros/JointCommand.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
@@ -45,6 +46,7 @@ class RunVisitor {
   virtual void solver_state(std::int64_t time, const SolverState& message) { unused(time, message); }
   virtual void global_quantities(std::int64_t time, const GlobalQuantities& message) { unused(time, message); }
   virtual void cracks(std::int64_t time, const Cracks& message) { unused(time, message); }
+  virtual void terrain(std::int64_t time, const HeightMap& message) { unused(time, message); }
   virtual void command(std::int64_t time, const Command& message) { unused(time, message); }
   virtual void joint_command(std::int64_t time, const JointCommand& message) { unused(time, message); }
   /// A message on /clock, where that was recorded too.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mpm_ros/csv/csv_tables.hpp"
+#include "mpm_ros/csv/terrain_csv.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 
 namespace mpm_ros {
@@ -26,6 +27,7 @@ class CsvExport : public RunVisitor {
   void cracks(std::int64_t time, const Cracks& message) override;
   void command(std::int64_t time, const Command& message) override;
   void markers(const visualization_msgs::MarkerArray& message) override;
+  void terrain(std::int64_t time, const HeightMap& message) override;
   void close();
 
  private:
@@ -37,6 +39,7 @@ class CsvExport : public RunVisitor {
   GlobalQuantitiesCsv global_quantities_;
   CracksCsv cracks_;
   CommandsCsv commands_;
+  TerrainCsv terrain_;
 };
 
 /// The particle snapshots that it is given, one file each.

@@ -24,6 +24,7 @@ struct RunSceneOptions {
   std::string csv;               ///< folder, or empty for none
   std::string vtk;               ///< folder of files for ParaView, or empty for none
   std::string summary;           ///< JSON file, or empty for none
+  std::string terrain;           ///< GeoTIFF of the ground at the end, or empty for none
   std::string out;               ///< folder in which the run gets one of its own, with all of these; empty for none
   std::string resume;            ///< checkpoint to go on from; the scene may then be empty
   std::string checkpoint;        ///< file to save the run to at its end, or when it is stopped; empty: none

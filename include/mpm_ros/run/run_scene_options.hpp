@@ -28,7 +28,10 @@ std::string thread_warning(int threads);
 void check_fields(const OutputOptions& output);
 /// Tries whether the file can be written, and leaves it as it is: what cannot be is told before hours of work. An empty
 /// path is none. @throws mpm::SceneError
-void try_summary(const std::string& path);
+void try_file(const std::string& option, const std::string& path);
+/// Definition of the map of --terrain: the scene's own maps, or the whole ground at the grid's cells. @throws
+/// mpm::SceneError for a scene without ground
+mpm::GroundOutput ground_at_end(const mpm::Scene& scene);
 /// Makes the folder that an option names, and tries whether files can be made in it. @throws mpm::SceneError
 void try_folder(const std::string& option, const std::string& folder);
 /// Reads where a part of the bag ends: "500 MB" or "10 s". @throws mpm::SceneError

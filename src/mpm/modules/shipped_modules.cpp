@@ -47,6 +47,7 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_tractions},
       {add_cracks, numbers_of_cracks()},
       {add_sleep, {{"asleep", "1"}}},
+      {add_volumes},
       {add_step_limit},
   };
   return kList;

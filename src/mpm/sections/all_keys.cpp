@@ -14,6 +14,7 @@
 #include "mpm/sleep/sleep_keys.hpp"
 #include "mpm/step/damping_keys.hpp"
 #include "mpm/transport/transport_keys.hpp"
+#include "mpm/volumes/volume_keys.hpp"
 
 namespace mpm {
 namespace {
@@ -56,6 +57,8 @@ std::vector<KeySection> make_sections() {
                                           section_of(output_keys(), "scene/output.md"),
                                           section_of(pace::target_keys(), "scene/target.md")};
   sections.insert(sections.end(), others.begin(), others.end());
+  sections.push_back(section_of(ground_keys(), "scene/output.md"));
+  sections.push_back(section_of(volume_keys(), "scene/volumes.md"));
   return sections;
 }
 

@@ -22,9 +22,12 @@ std::string read_body_value(const Value& value) {
 }
 
 /// The name of a number that some module can report.
-std::string read_reported_number(const Value& value) {
+std::string read_reported_number(const Value& value, const Scene& scene) {
   const std::string name = value.text();
-  const std::vector<std::string> known = reported_number_names();
+  std::vector<std::string> known = reported_number_names();
+  for (const VolumeDefinition& volume : scene.definition.volumes) {
+    for (const auto& [number, unit] : volume_numbers(volume.name)) known.push_back(number);
+  }
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     value.fail(fmt::format("no number '{}' of the run; {}", name, suggest(name, known)));
   }
@@ -117,7 +120,7 @@ MetricDefinition read_metric(const Value& value, const Scene& scene) {
   }
   if (const auto number = map.find("number")) {
     ++statistics;
-    metric.number = read_reported_number(*number);
+    metric.number = read_reported_number(*number, scene);
     if (of) of->fail("the number is of the whole run; leave it out");
   }
   if (statistics != 1)

@@ -157,21 +157,17 @@ void read_global(const Map& map, Scene& scene) {
   const auto period = map.find("global_period");
   if (!period) return;
   if (scene.output.global.empty()) period->fail("there is no output.global whose period this is; add a list of names");
-  scene.output.global_period = nearest_seconds(read_nanoseconds(*period));
-}
-
-/// To be called when the sync period is known.
-void check_global_period(const Map& map, Scene& scene) {
-  const auto period = map.find("global_period");
-  if (!period) return;
-  const std::int64_t time = read_nanoseconds(*period), sync = scene.definition.time.sync;
-  if (time % sync == 0) return;
-  const std::int64_t parts = std::max<std::int64_t>(1, (time + sync / 2) / sync);
-  period->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
-                           nearest_seconds(time), nearest_seconds(sync), nearest_seconds(parts * sync)));
 }
 
 }  // namespace
+
+double read_sync_periods(const Value& value, const Scene& scene) {
+  const std::int64_t time = read_nanoseconds(value), sync = scene.definition.time.sync;
+  if (time % sync == 0) return nearest_seconds(time);
+  const std::int64_t parts = std::max<std::int64_t>(1, (time + sync / 2) / sync);
+  value.fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
+                         nearest_seconds(time), nearest_seconds(sync), nearest_seconds(parts * sync)));
+}
 
 Box read_particle_region(const Value& value) {
   const Map map(value, {"min", "max"});
@@ -196,7 +192,7 @@ void read_time_and_output(const Map& root, Scene& scene) {
   output.particle_fields.insert(output.particle_fields.end(), {"p", "j"});
   std::optional<Value> sync, period, first;
   read_time(root, scene, sync);
-  std::optional<Map> global;
+  std::optional<Value> global_period, ground;
   if (const auto section = root.find("output")) {
     const Map map = read_keys(*section, output_keys(), output);
     period = map.find("period");
@@ -207,10 +203,12 @@ void read_time_and_output(const Map& root, Scene& scene) {
     }
     if (const auto region = map.find("particle_region")) output.particle_region = read_particle_region(*region);
     read_global(map, scene);
-    global.emplace(map);
+    global_period = map.find("global_period");
+    ground = map.find("terrain");
   }
   choose_periods(sync, period, first, scene);
-  if (global) check_global_period(*global, scene);
+  if (global_period) scene.output.global_period = read_sync_periods(*global_period, scene);
+  if (ground) read_ground_output(*ground, scene);
 }
 
 }  // namespace mpm

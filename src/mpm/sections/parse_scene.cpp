@@ -98,7 +98,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   const Map root(top,
                  {"name",   "units",     "constants", "geometry", "thickness",    "area",    "grid",    "time",
                   "method", "gravity",   "materials", "bodies",   "rigid_bodies", "robots",  "contact", "boundaries",
-                  "loads",  "transport", "sleep",     "cracks",   "output",       "metrics", "target"});
+                  "loads",  "transport", "sleep",     "cracks",   "output",       "metrics", "target",  "volumes"});
   Scene scene;
   scene.path = label;
   SimulationDefinition& definition = scene.definition;
@@ -133,6 +133,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_cracks(root, scene);
   const bool takes_implicit = asked && choose_implicit(*asked, root, scene);
   tell_of_averages(scene);
+  read_volumes(root, scene);
   read_metrics(root, scene);
   read_target(root, scene);
   for (const std::string& name : context.constants.unused()) {

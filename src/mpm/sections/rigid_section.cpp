@@ -228,11 +228,14 @@ void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinitio
   if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
 }
 
-void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body) {
-  const GeometryKind geometry = definition.geometry;
+void read_rigid_place(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body) {
   body.surface = read_surface(map.at("shape"), definition, body);
-  if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
-  read_rigid_motion(map, geometry, body);
+  if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, definition.geometry, body.inner_radius);
+}
+
+void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body) {
+  read_rigid_place(map, definition, body);
+  read_rigid_motion(map, definition.geometry, body);
 }
 
 FrictionLaw read_rigid_bodies(const Map& root, Scene& scene) {

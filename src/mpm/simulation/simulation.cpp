@@ -8,6 +8,7 @@
 
 #include "mpm/ranks/agree.hpp"
 #include "mpm/ranks/of_all.hpp"
+#include "mpm/volumes/volumes.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -133,6 +134,13 @@ void Simulation::State::meet_again() {
   over->meet(fields);
   if (choice) choice->find_places();
   for (Module* module : modules.list()) module->share_memory(*ranks);
+}
+
+std::vector<VolumeReport> Simulation::volumes() const {
+  for (const Module* module : state_->modules.list()) {
+    if (const auto* volumes = dynamic_cast<const Volumes*>(module)) return volumes->reports();
+  }
+  return {};
 }
 
 const SweepBudget* Simulation::budget() const { return state_->services.budget.get(); }

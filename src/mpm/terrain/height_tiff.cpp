@@ -8,55 +8,22 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdarg>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
 
+#include "geo_tiff.hpp"
 #include "mpm/terrain/height_file.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr std::uint32_t kPixelScaleTag = 33550, kTiepointTag = 33922, kKeysTag = 34735, kNoDataTag = 42113;
-// GeoTIFF 1.1 keys: kind of coordinates, whether a pixel is an area or a point, unit of length; of heights, the
-// reference system and the unit.
-constexpr int kModelKey = 1024, kRasterKey = 1025, kUnitKey = 3076, kVerticalKey = 4096, kVerticalUnitKey = 4099;
-constexpr int kGeographic = 2, kGeocentric = 3, kPixelIsPoint = 2, kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;
+constexpr int kVerticalKey = 4096;  // reference system of heights
+constexpr int kGeographic = 2, kGeocentric = 3, kFoot = 9002, kSurveyFoot = 9003;
 constexpr double kMetresAFoot = 0.3048, kMetresASurveyFoot = 1200.0 / 3937.0;
 // Heights in feet of the EPSG register: NGVD29 (ftUS), NAVD88 (ftUS), NAVD88 (ft).
 constexpr int kNgvd29SurveyFeet = 5702, kNavd88SurveyFeet = 6360, kNavd88Feet = 8228;
-
-/// Keeps libtiff's messages, which else go to the terminal, while it exists.
-class TiffMessages {
- public:
-  TiffMessages() : error_(TIFFSetErrorHandler(keep)), warning_(TIFFSetWarningHandler(nullptr)) { last().clear(); }
-  ~TiffMessages() {
-    TIFFSetErrorHandler(error_);
-    TIFFSetWarningHandler(warning_);
-  }
-  TiffMessages(const TiffMessages&) = delete;
-  TiffMessages& operator=(const TiffMessages&) = delete;
-  static std::string& last() {
-    thread_local std::string text;
-    return text;
-  }
-
- private:
-  static void keep(const char* /*module*/, const char* format, va_list arguments) {
-    char text[256];
-    std::vsnprintf(text, sizeof text, format, arguments);
-    last() = text;
-    std::replace(last().begin(), last().end(), '\n', ' ');
-  }
-  TIFFErrorHandler error_, warning_;
-};
-
-struct CloseTiff {
-  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
-};
-using TiffFile = std::unique_ptr<TIFF, CloseTiff>;
 
 /// The values of a tag that libtiff does not know, or knows from another library; none when the file has no such tag.
 template <class T>

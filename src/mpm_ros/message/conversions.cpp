@@ -153,6 +153,22 @@ void add_other(mpm_ros::SolverState& message, const std::string& name, const std
 
 }  // namespace
 
+Volumes to_message(const std::vector<mpm::VolumeReport>& volumes) {
+  Volumes message;
+  for (const mpm::VolumeReport& volume : volumes) {
+    Volume& one = message.volumes.emplace_back();
+    one.name = volume.name;
+    one.mass = volume.mass;
+    one.volume = volume.volume;
+    one.centre.x = volume.centre.x();
+    one.centre.y = volume.centre.y();
+    one.centre.z = volume.centre.z();
+    one.mass_in = volume.mass_in;
+    one.mass_out = volume.mass_out;
+  }
+  return message;
+}
+
 Cracks to_message(const std::vector<mpm::CrackReport>& cracks, const std::vector<mpm::CrackTipReport>& tips) {
   Cracks message;
   for (const mpm::CrackReport& crack : cracks) {

@@ -59,6 +59,18 @@ void Publishers::add_robot(const mpm::RobotDefinition& robot) {
   }
 }
 
+void Publishers::add_volumes() {
+  ros::Publisher& publisher = publishers_[topics::kVolumes];
+  if (!publisher) publisher = node_.advertise<Volumes>(topics::kVolumes, kSmall);
+}
+
+void Publishers::add_ground() {
+  if (publishers_.count(topics::kTerrain) > 0) return;
+  publishers_[topics::kTerrain] = node_.advertise<HeightMap>(topics::kTerrain, kLarge, true);
+  publishers_[topics::kTerrainCloud] = node_.advertise<sensor_msgs::PointCloud2>(topics::kTerrainCloud, kLarge, true);
+  publishers_[topics::kTerrainImage] = node_.advertise<sensor_msgs::Image>(topics::kTerrainImage, kLarge, true);
+}
+
 bool Publishers::wants(const std::string& topic) const {
   const ros::Publisher& publisher = publishers_.at(topic);
   return publisher.isLatched() || publisher.getNumSubscribers() > 0;

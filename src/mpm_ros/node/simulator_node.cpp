@@ -204,6 +204,8 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   if (!subject->scene.output.global.empty()) publishers_->add_global();
   if (subject->scene.definition.cracks.any()) publishers_->add_cracks();
   for (const mpm::RobotDefinition& robot : subject->scene.definition.robots) publishers_->add_robot(robot);
+  if (!subject->scene.definition.volumes.empty()) publishers_->add_volumes();
+  if (subject->scene.output.ground) publishers_->add_ground();
   if (local_frame(subject->scene.definition.grid, parameters_.world_frame).apart()) publishers_->add_static_frames();
   std::unique_ptr<Run> run;
   {

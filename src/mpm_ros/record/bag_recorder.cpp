@@ -272,5 +272,11 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Jo
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Command& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Volumes& message) {
+  write(topic, stamp, message);
+}
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const HeightMap& message) {
+  write(topic, stamp, message);
+}
 
 }  // namespace mpm_ros

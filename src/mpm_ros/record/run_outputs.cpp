@@ -11,6 +11,7 @@
 #include "mpm/math/build_info.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/ground_messages.hpp"
 #include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/record/output_names.hpp"
@@ -50,6 +51,7 @@ OutputOptions output_options(const mpm::Scene& scene) {
   options.particles.choice = {scene.output.particle_stride, scene.output.particle_region};
   options.global = scene.output.global;
   options.global_period = scene.output.global_period;
+  options.ground = scene.output.ground;
   options.particle_period = scene.output.period;
   options.particle_first = scene.output.first;
   return options;
@@ -102,6 +104,7 @@ RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, Output
   }
   global_message_.names = global_.names();
   global_message_.units = global_.units();
+  if (options_.ground) ground_ = std::make_unique<GroundRecord>(simulation, *options_.ground);
 }
 
 ros::Time RunOutputs::stamp() const { return stamps_.at(simulation_.time()); }
@@ -166,8 +169,10 @@ void RunOutputs::begin(const RunInfo& info) {
   write_state(options_.state_hash, 0.0);
   write_cracks();
   write_robots();
+  write_volumes();
   write_particles();
   write_global();
+  write_ground(true);
   end_writing();
 }
 
@@ -177,8 +182,10 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_cracks();
+  write_volumes();
   write_particles();
   if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
+  write_ground(true);
   end_writing();
 }
 
@@ -214,6 +221,12 @@ void RunOutputs::serialise(mpm::StateArchive& archive) {
     global_kept_ = names == own;
     if (global_kept_) global_.serialise(archive);
   }
+  std::uint64_t grounds = ground_ ? 1 : 0;
+  archive.value("grounds", grounds);
+  if (ground_ && grounds > 0) {
+    const mpm::StateArchive::Group group(archive, "ground");
+    ground_->serialise(archive);
+  }
   if (simulation_.budget() != nullptr) {
     archive.rows("cuts", cuts_);
     archive.column("cuts/step", cuts_, &mpm::CutStep::step);
@@ -248,8 +261,10 @@ void RunOutputs::sync(bool last, double real_time_factor) {
     write_state(last || options_.state_hash, real_time_factor);
     write_cracks();
     write_robots();
+    write_volumes();
   }
   if (last || time % global_period_ == 0) write_global();
+  if (ground_ && (last || ground_->due(time))) write_ground(last);
   if (last || particles_due()) write_particles();
   finished_ = last;
   end_writing();
@@ -273,9 +288,10 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
     if (!average_.empty()) write_contacts();  // writes none if a run that failed within a period has
   }
   write_state(true, real_time_factor);
-  if (failed || cracks_at_ != simulation_.time()) write_cracks();
+  if (failed || cracks_at_ != simulation_.time()) write_cracks(), write_volumes();
   if (failed || particles_at_ != simulation_.time()) write_particles();
   if (failed || global_at_ != simulation_.time()) write_global();
+  if (failed || ground_at_ != simulation_.time()) write_ground(true);
   end_writing();
 }
 
@@ -447,6 +463,38 @@ void RunOutputs::write_global() {
   global_message_.header = header(options_.world_frame);
   global_message_.values = global_.read();
   put(topics::kGlobalQuantities, global_message_);
+}
+
+void RunOutputs::write_volumes() {
+  if (simulation_.definition().volumes.empty() || !wanted(topics::kVolumes)) return;
+  Volumes message = to_message(simulation_.volumes());
+  message.header = header(options_.world_frame);
+  put(topics::kVolumes, message);
+}
+
+void RunOutputs::write_ground(bool all) {
+  if (!ground_) return;
+  ground_at_ = simulation_.time();
+  bool anyone = false;
+  for (const char* topic : {topics::kTerrain, topics::kTerrainCloud, topics::kTerrainImage})
+    anyone = anyone || wanted(topic);
+  if (!simulation_.on_any_rank(anyone)) return;
+  if (!ground_->look(simulation_, all)) return;
+  if (wanted(topics::kTerrain)) {
+    HeightMap message = to_message(ground_->map(), simulation_.definition().grid.min.z());
+    message.header = header(options_.world_frame);
+    put(topics::kTerrain, message);
+  }
+  if (wanted(topics::kTerrainCloud)) {
+    sensor_msgs::PointCloud2 cloud = to_cloud(ground_->map(), ground_->before(), local_);
+    cloud.header = header(local_.name);
+    put(topics::kTerrainCloud, cloud);
+  }
+  if (wanted(topics::kTerrainImage)) {
+    sensor_msgs::Image image = to_image(ground_->map());
+    image.header = header(options_.world_frame);
+    put(topics::kTerrainImage, image);
+  }
 }
 
 }  // namespace mpm_ros

@@ -15,7 +15,7 @@ void CsvSink::close() {
 bool CsvSink::wants(const std::string& topic) const {
   // The rest repeats these in another form, or is for displays.
   for (const char* table : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
-                            topics::kCracks, topics::kParticles, topics::kCommands}) {
+                            topics::kCracks, topics::kParticles, topics::kCommands, topics::kTerrain}) {
     if (topic == table) return true;
   }
   return topic == topics::kMarkers || topic == topics::kTfStatic;
@@ -44,6 +44,9 @@ void CsvSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs:
   const std::int64_t time = stamps_.time_of(stamp);
   if (origin == origins_.end()) return snapshots_.particles(time, message);
   snapshots_.particles(time, in_world(message, origin->second));
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const HeightMap& message) {
+  tables_.terrain(stamps_.time_of(stamp), message);
 }
 void CsvSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
   tables_.markers(message);

@@ -275,7 +275,7 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& told)
   std::vector<std::string> names;
   for (const char* name :
        {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities, topics::kCracks,
-        topics::kCommands, topics::kJointCommands, topics::kParticles, topics::kMarkers}) {
+        topics::kCommands, topics::kJointCommands, topics::kParticles, topics::kTerrain, topics::kMarkers}) {
     names.push_back(topic(name));
   }
   names.emplace_back(topics::kClock);
@@ -306,6 +306,8 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& told)
         hand_on(instance, visitors, &RunVisitor::command);
       } else if (name == topics::kJointCommands) {
         hand_on(instance, visitors, &RunVisitor::joint_command);
+      } else if (name == topics::kTerrain) {
+        hand_on(instance, visitors, &RunVisitor::terrain);
       } else if (name == topics::kParticles) {
         hand_on_cloud(instance, visitors);
       } else if (!std::exchange(shaped, true)) {  // each part has them again

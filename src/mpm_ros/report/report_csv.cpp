@@ -29,7 +29,8 @@ CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
       solver_state_(folder),
       global_quantities_(folder),
       cracks_(folder),
-      commands_(folder) {}
+      commands_(folder),
+      terrain_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
   contact_forces_.add(mpm::nearest_seconds(time), message.bodies);
@@ -61,6 +62,12 @@ void CsvExport::markers(const visualization_msgs::MarkerArray& message) {
   }
 }
 
+void CsvExport::terrain(std::int64_t time, const HeightMap& message) {
+  if (message.heights.size() != static_cast<std::size_t>(message.columns) * message.rows)
+    throw BagError("terrain: as many heights as points are needed");
+  terrain_.add(mpm::nearest_seconds(time), message);
+}
+
 void CsvExport::close() {
   contact_forces_.close();
   contact_pairs_.close();
@@ -69,6 +76,7 @@ void CsvExport::close() {
   global_quantities_.close();
   cracks_.close();
   commands_.close();
+  terrain_.close();
 }
 
 void SnapshotExport::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {

@@ -26,6 +26,10 @@ void check_outputs(const RunSceneOptions& options, const mpm::Scene& scene) {
     files.writes("--summary", options.summary);
     files.writes("--summary", options.summary + ".part");
   }
+  if (!options.terrain.empty()) {
+    files.writes("--terrain", options.terrain);
+    files.writes("--terrain", options.terrain + ".part");
+  }
   files.writes_into("--csv", options.csv, kCsvFiles);
   files.writes_into("--vtk", options.vtk, kVtkFiles);
 }

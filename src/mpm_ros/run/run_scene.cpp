@@ -15,6 +15,8 @@
 #include "mpm/ranks/of_all.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/rank_failure.hpp"
+#include "mpm/terrain/ground_map.hpp"
+#include "mpm/terrain/height_file.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/aim/aim.hpp"
 #include "mpm_ros/command/command_log.hpp"
@@ -189,6 +191,7 @@ class OfflineRun {
     const RunSummary summary(scene_, simulation, start, run_->outputs().contacts(), run_->cut_short());
     out << summary.text();
     if (!write(summary, err)) room = false;
+    if (!failed && !write_terrain(out, err)) room = false;
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";
     if (!options_.out.empty()) out << "  all in " << options_.out << "\n";
     RunSceneResult result = failed ? RunSceneResult::physics_failed : RunSceneResult::done;
@@ -247,7 +250,9 @@ class OfflineRun {
   /// replaced yet: a run that does not come to its start leaves what an earlier one wrote.
   void try_outputs() {
     if (!options_.out.empty()) choose_folder();
-    try_summary(options_.summary);
+    try_file("--summary", options_.summary);
+    if (!options_.terrain.empty()) ground_at_end(scene_);
+    if (own_first()) try_file("--terrain", options_.terrain);
     try_folder("--csv", options_.csv);
     try_folder("--vtk", options_.vtk);
   }
@@ -291,6 +296,28 @@ class OfflineRun {
       err << "run_scene: " << error.what() << "\n";
       return false;
     }
+  }
+
+  bool own_first() const { return !options_.ranks || options_.ranks->first(); }
+
+  /// The ground is read on all ranks, and written by the first.
+  bool write_terrain(std::ostream& out, std::ostream& err) {
+    if (options_.terrain.empty()) return true;
+    const mpm::GroundOutput ground = ground_at_end(scene_);
+    const mpm::Simulation& simulation = run_->simulation();
+    const mpm::SimulationDefinition& definition = simulation.definition();
+    mpm::GroundMap map(simulation, ground.of);
+    const mpm::HeightGrid& heights =
+        map.read(simulation, mpm::ground_raster(definition.grid, definition.geometry, ground.resolution));
+    if (!own_first()) return true;
+    try {
+      mpm::write_height_tiff(options_.terrain, heights);
+    } catch (const mpm::SceneError& error) {
+      err << "run_scene: --terrain " << error.what() << "\n";
+      return false;
+    }
+    out << "  ground in " << options_.terrain << "\n";
+    return true;
   }
 
   bool write(const RunSummary& summary, std::ostream& err) {

@@ -12,6 +12,7 @@
 #include "mpm/math/output_file.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "mpm/terrain/ground_map.hpp"
 #include "mpm/yaml/units.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 
@@ -102,11 +103,28 @@ mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Reru
   return scene;
 }
 
-void try_summary(const std::string& path) {
+void try_file(const std::string& option, const std::string& path) {
   if (path.empty()) return;
   std::string problem = mpm::refused_output(path);
   if (problem.empty()) problem = problem_of_new_file(mpm::behind_links(path) + ".part");
-  if (!problem.empty()) throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, problem));
+  if (!problem.empty()) throw mpm::SceneError(fmt::format("{} {}: cannot be written: {}", option, path, problem));
+}
+
+mpm::GroundOutput ground_at_end(const mpm::Scene& scene) {
+  const mpm::SimulationDefinition& definition = scene.definition;
+  const auto refuse = [&](const std::string& what) {
+    throw mpm::SceneError(fmt::format("--terrain: {}: {}", scene.path, what));
+  };
+  if (!mpm::planar(definition.geometry) && definition.geometry != mpm::GeometryKind::solid)
+    refuse("only planar and solid scenes have ground; leave it out");
+  mpm::GroundOutput ground = scene.output.ground.value_or(mpm::GroundOutput());
+  if (!scene.output.ground) ground.resolution = mpm::ground_resolution(definition.grid);
+  try {
+    mpm::ground_raster(definition.grid, definition.geometry, ground.resolution);
+  } catch (const mpm::Error& error) {
+    refuse(fmt::format("{} as output.terrain.resolution", error.what()));
+  }
+  return ground;
 }
 
 void try_folder(const std::string& option, const std::string& folder) {

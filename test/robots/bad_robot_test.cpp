@@ -109,7 +109,7 @@ TEST(BadRobot, CommandsThatAJointCannotFollow) {
   EXPECT_THROW(robot.check_trajectory(1, {{0.1, 0.0, 0.0}}, 0.2), RigidError);
   EXPECT_THROW(robot.check_trajectory(1, {{0.1, 2.5, 0.0}}, 0.0), RigidError);
   run(robot, 10, 1e-3);
-  EXPECT_EQ(robot.report().joints[1].position, 0.0);  // what came before stays
+  EXPECT_EQ(robot.report().joints[1].position, 0.0);  // the last good target stays
 }
 
 }  // namespace bad_robot_test

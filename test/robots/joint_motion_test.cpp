@@ -198,7 +198,7 @@ TEST(JointMotion, DrivesOfAFreeRobotGiveItNoMomentum) {
   run(robot, 20000, 1e-4);
   const RobotReport end = robot.report();
   EXPECT_GT(std::abs(end.joints[0].position), 0.1);
-  // Of first order in the step: 2 s of motion at some 0.5 m/s.
+  // An error of first order in the step: 2 s of motion at some 0.5 m/s.
   EXPECT_LT((centre(end) - start).norm(), 1e-4);
 }
 

@@ -15,7 +15,7 @@ namespace mpm {
 
 class LinkMotion;
 
-/// What contact asks of a robot. All its links have their velocities from it.
+/// Interface of a robot to contact. All its links have their velocities from it.
 class Articulation {
  public:
   virtual ~Articulation() = default;
@@ -49,7 +49,7 @@ struct LinkResponse {
 
 class LinkMotion final : public DynamicMotion {
  public:
-  using Vec6 = Eigen::Matrix<double, 6, 1>;  ///< of rotation, then of translation
+  using Vec6 = Eigen::Matrix<double, 6, 1>;  ///< parts of rotation, then of translation
 
   LinkMotion(Articulation& robot, LinkResponse& response) : robot_(&robot), response_(&response) {}
 

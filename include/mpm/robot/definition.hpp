@@ -12,7 +12,7 @@
 
 namespace mpm {
 
-/// What a joint's drive follows: a velocity, a position, or an effort alone.
+/// Quantity that a joint's drive follows: a velocity, a position, or an effort alone.
 enum class JointDrive : std::uint8_t { velocity = 0, position = 1, effort = 2 };
 inline constexpr std::array kJointDriveNames = {"velocity", "position", "effort"};
 
@@ -35,7 +35,7 @@ enum class BaseKind : std::uint8_t { fixed = 0, free = 1, moving = 2 };
 struct BaseDefinition {
   BaseKind kind = BaseKind::fixed;
   Pose pose;                              ///< at the start
-  std::array<Function, 3> velocity;       ///< of a moving base's origin, world axes [m/s]
+  std::array<Function, 3> velocity;       ///< velocity of a moving base's origin, world axes [m/s]
   std::array<Function, 3> rotation_rate;  ///< world axes [rad/s]
 };
 

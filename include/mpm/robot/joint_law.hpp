@@ -13,14 +13,14 @@
 
 namespace mpm {
 
-/// What acts on a joint in a step. Efforts in [N] or [N m], velocities in [m/s] or [rad/s].
+/// Actions on a joint in a step. Efforts in [N] or [N m], velocities in [m/s] or [rad/s].
 struct JointActions {
   enum class Drive { effort, rigid, spring } drive = Drive::effort;
-  double effort = 0.0;        ///< of a drive by effort
+  double effort = 0.0;        ///< effort of a drive by effort
   double target = 0.0;        ///< velocity of a rigid drive
   double at_rest = 0.0;       ///< effort of a spring at velocity 0
   double slope = 0.0;         ///< effort that a spring loses by velocity [N s/m], [N m s/rad]
-  double limit = kInfinity;   ///< of the drive's effort
+  double limit = kInfinity;   ///< limit of the drive's effort
   double damping = 0.0;       ///< [N s/m], [N m s/rad]
   double friction = 0.0;      ///< the same at rest and in motion
   double least = -kInfinity;  ///< velocities that limits of position leave

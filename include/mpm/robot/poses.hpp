@@ -1,4 +1,4 @@
-// Where the links of a robot are when its joints are at given positions.
+// Poses of the links of a robot whose joints are at given positions.
 #pragma once
 
 #include <vector>

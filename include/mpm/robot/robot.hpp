@@ -29,9 +29,9 @@ struct JointReport {
   std::string name;
   double position = 0.0;  ///< [m], [rad]
   double velocity = 0.0;  ///< [m/s], [rad/s]
-  double effort = 0.0;    ///< of the drive, in the last step [N], [N m]
-  double impulse = 0.0;   ///< of the drive, since the start of the run [N s], [N m s]
-  double target = 0.0;    ///< of the drive, by its kind
+  double effort = 0.0;    ///< effort of the drive in the last step [N], [N m]
+  double impulse = 0.0;   ///< impulse of the drive since the start of the run [N s], [N m s]
+  double target = 0.0;    ///< target of the drive, by its kind
   JointDrive drive = JointDrive::effort;
 };
 
@@ -47,7 +47,7 @@ struct SensorReport {
 struct RobotEnergies {
   double kinetic = 0.0, potential = 0.0;
   double drive = 0.0;    ///< work of the drives, and of what moves the base
-  double damping = 0.0;  ///< of joints, as those below at most 0
+  double damping = 0.0;  ///< work of damping in joints, at most 0 as those below
   double friction = 0.0;
   double limit = 0.0;
   double contact = 0.0;  ///< work of the material on the links
@@ -149,13 +149,13 @@ class Robot final : public Articulation {
   std::vector<JointTarget> targets_;
   JointSolution solution_;
   Pose base_;
-  Eigen::VectorXd positions_;   ///< of joints that can be commanded
+  Eigen::VectorXd positions_;   ///< positions of joints that can be commanded
   Eigen::VectorXd velocities_;  ///< with those of the base
   double time_ = 0.0, dt_ = 0.0;
   bool predicted_ = false;
-  Twist base_twist_;  ///< of a moving base
+  Twist base_twist_;  ///< twist of a moving base
   RobotEnergies energies_;
-  std::vector<double> impulses_, efforts_;  ///< of drives, since the start, and in the last step
+  std::vector<double> impulses_, efforts_;  ///< impulses of drives since the start, efforts in the last step
   std::vector<Wrench> sensed_, sensed_sum_;
   // Kept so that a step allocates nothing of its own.
   Eigen::VectorXd full_positions_, full_velocities_, bias_, momentum_, with_contact_, start_velocities_, mean_;

@@ -24,7 +24,7 @@ JointSolution::JointSolution(int freedoms)
 void JointSolution::begin(const Eigen::MatrixXd& mass) {
   mass_ = mass;
   for (std::size_t i = 0; i < laws_.size(); ++i) {
-    // Where the velocity was is the best guess: laws have other pieces in each step.
+    // The piece at the last velocity is the best guess: laws have other pieces in each step.
     pieces_[i] = laws_[i].piece_at(velocities_[static_cast<Eigen::Index>(i)]);
   }
   factor();

@@ -236,7 +236,7 @@ void Robot::begin_step(double time, double dt) {
     if (link.responds) response_.links.push_back(link.motion);
   }
   find_response();
-  // Of a link that nothing moves but what is prescribed this is the twist of the step.
+  // The twist of the step, for a link that nothing moves but what is prescribed.
   mean_ = velocities_;
   for (Eigen::Index i = 0; i < velocities_.size(); ++i) {
     if (solution_.is_prescribed(static_cast<int>(i))) mean_[i] = solution_.velocities()[i];

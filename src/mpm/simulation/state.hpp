@@ -84,7 +84,7 @@ struct Simulation::State {
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
-  std::vector<std::unique_ptr<Robot>> robots;  ///< whose links are among the bodies
+  std::vector<std::unique_ptr<Robot>> robots;  ///< robots, whose links are among the bodies
   Modules modules;
   std::vector<ContactReporter*> reporters;  ///< among the modules
   Services services;

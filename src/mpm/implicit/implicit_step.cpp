@@ -22,12 +22,12 @@ constexpr double kSettled = 3e-3;  ///< change of all stresses in a sweep, over 
 // Change of the forces on tools in the second half of the sweeps: over the forces, and over what the step has changed
 // them by, since of a force that grows slowly an error in each step adds up.
 constexpr double kForceError = 0.02, kLeastForceError = 0.005, kOfGain = 0.25;
-constexpr double kHeld = 6.0;       ///< pressure on a tool over rho (h / dt)^2, at the most
-constexpr int kWholeSweeps = 2;     ///< that take all blocks, whether they need it or not
-constexpr double kQuiet = 0.1;      ///< part of a block's share of what is left to settle: with less it is not swept
+constexpr double kHeld = 6.0;        ///< pressure on a tool over rho (h / dt)^2, at the most
+constexpr int kWholeSweeps = 2;      ///< that take all blocks, whether they need it or not
+constexpr double kQuiet = 0.1;       ///< part of a block's share of what is left to settle: with less it is not swept
 constexpr int kSweepsToSettle = 16;  ///< after which the joints of robots are looked at
-constexpr double kKept = 0.9;       ///< part of the sweeps of the step before, at the least
-constexpr double kLightest = 1e-6;  ///< part of a cell full of soil: what is added to a node's mass in the solve
+constexpr double kKept = 0.9;        ///< part of the sweeps of the step before, at the least
+constexpr double kLightest = 1e-6;   ///< part of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
 class ImplicitStep final : public Stage, public ContactReporter {

@@ -101,6 +101,7 @@ class Robot final : public Articulation {
   /// `start` [s]; [m/s]
   double largest_speed(std::size_t contact, double corner, double start, double ahead) const;
   RobotReport report() const;
+  const RobotEnergies& energies() const { return energies_; }
   void serialise(StateArchive& archive);
   /// Numbers that make up its state, for the hash of the run.
   void hashed(std::vector<double>& numbers) const;
@@ -159,7 +160,10 @@ class Robot final : public Articulation {
   std::vector<Wrench> sensed_, sensed_sum_;
   // Kept so that a step allocates nothing of its own.
   Eigen::VectorXd full_positions_, full_velocities_, bias_, momentum_, with_contact_, start_velocities_, mean_;
-  Eigen::MatrixXd mass_, full_jacobian_, stacked_, responses_;
+  Eigen::MatrixXd mass_, full_jacobian_, stacked_, responses_;  ///< stacked_: Jacobians of links, transposed, side by side
+  Eigen::VectorXd accelerations_;
+  std::vector<int> link_numbers_;
+  std::vector<LinkMotion::Vec6> wrenches_;
 };
 
 }  // namespace mpm

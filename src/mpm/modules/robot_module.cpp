@@ -29,7 +29,7 @@ class RobotModule final : public Module {
 
   void energies(EnergyReport& report) const override {
     for (const auto& robot : robots_) {
-      const RobotEnergies of = robot->report().energies;
+      const RobotEnergies& of = robot->energies();
       report.add("robot_kinetic", NamedEnergy::Kind::of_bodies, of.kinetic);
       report.add("robot_potential", NamedEnergy::Kind::of_bodies, of.potential);
       report.add("robot_drive", NamedEnergy::Kind::at_bodies, of.drive);

@@ -248,13 +248,13 @@ void Robot::begin_step(double time, double dt) {
 void Robot::find_response() {
   const auto count = static_cast<Eigen::Index>(response_.links.size());
   if (count == 0) return;
-  stacked_.resize(6 * count, velocities_.size());
+  stacked_.resize(velocities_.size(), 6 * count);
   Eigen::Index place = 0;
   for (const Link& link : links_) {
-    if (link.responds) stacked_.middleRows<6>(6 * place++) = link.jacobian;
+    if (link.responds) stacked_.middleCols<6>(6 * place++) = link.jacobian.transpose();
   }
-  solution_.respond(stacked_.transpose(), responses_);
-  response_.matrix.noalias() = stacked_ * responses_;
+  solution_.respond(stacked_, responses_);
+  response_.matrix.noalias() = stacked_.transpose() * responses_;
   response_.change.resize(6 * count);
 }
 
@@ -371,22 +371,22 @@ void Robot::book() {
 }
 
 void Robot::read_sensors() {
-  Eigen::VectorXd velocities(full_velocities_.size()), accelerations(full_velocities_.size());
+  accelerations_.resize(full_velocities_.size());
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    velocities[static_cast<Eigen::Index>(i)] = part.factor * mean_[part.freedom];
-    accelerations[static_cast<Eigen::Index>(i)] =
+    full_velocities_[static_cast<Eigen::Index>(i)] = part.factor * mean_[part.freedom];
+    accelerations_[static_cast<Eigen::Index>(i)] =
         part.factor * (velocities_[part.freedom] - start_velocities_[part.freedom]) / dt_;
   }
-  std::vector<int> links;
-  std::vector<LinkMotion::Vec6> wrenches;
+  link_numbers_.clear();
+  wrenches_.clear();
   for (const Link& link : links_) {
-    links.push_back(link.link);
-    wrenches.push_back(link.motion->taken() / dt_);
+    link_numbers_.push_back(link.link);
+    wrenches_.push_back(link.motion->taken() / dt_);
   }
   for (std::size_t s = 0; s < sensed_.size(); ++s) {
     const LinkMotion::Vec6 wrench =
-        engine_->joint_wrench(definition_.sensors[s], velocities, accelerations, links, wrenches);
+        engine_->joint_wrench(definition_.sensors[s], full_velocities_, accelerations_, link_numbers_, wrenches_);
     sensed_[s] = {wrench.tail<3>(), wrench.head<3>()};
     sensed_sum_[s].force += dt_ * sensed_[s].force;
     sensed_sum_[s].torque += dt_ * sensed_[s].torque;

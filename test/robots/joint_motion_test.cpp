@@ -202,6 +202,23 @@ TEST(JointMotion, DrivesOfAFreeRobotGiveItNoMomentum) {
   EXPECT_LT((centre(end) - start).norm(), 1e-4);
 }
 
+// The elbow follows the shoulder by -2: one freedom, with the moments of both by virtual work.
+TEST(JointMotion, AMimicJointGivesItsMomentsToTheOneThatItFollows) {
+  RobotDefinition definition = load("arm.urdf", JointDrive::position);
+  definition.model.joints[1].mimic = Mimic{0, -2.0, 0.0};
+  definition.joints.erase(definition.joints.begin() + 1);
+  std::vector<RigidBody> none;
+  Robot robot(definition, kGravity, none);
+  run(robot, 3, 1e-3);
+  const double shoulder = kG * (4.0 * 0.25 + 2.5 * 0.7 + 0.8 * 0.95 + 3.0 * 1.0);
+  const double elbow = kG * (2.5 * 0.2 + 0.8 * 0.45 + 3.0 * 0.5);
+  EXPECT_NEAR(robot.report().joints[0].effort, -(shoulder - 2.0 * elbow), 1e-6 * shoulder);
+  robot.follow(0, {{0.0, 0.0, 0.0}, {0.1, 0.2, 0.0}}, 0.003);
+  run(robot, 200, 1e-3, 0.003);
+  EXPECT_NEAR(robot.report().joints[0].position, 0.2, 1e-12);
+  EXPECT_NEAR(robot.report().joints[1].position, -0.4, 1e-12);
+}
+
 TEST(JointMotion, ATrajectoryPassesItsPointsWithTheirVelocities) {
   std::vector<RigidBody> none;
   Robot robot(load("arm.urdf", JointDrive::position), kGravity, none);

@@ -22,8 +22,8 @@ class JointSolution {
   /// Laws of the step. Pieces stay as they are where a law still has that piece.
   std::vector<JointLaw>& laws() { return laws_; }
   const std::vector<JointLaw>& laws() const { return laws_; }
-  /// Begins a step with its mass matrix and laws.
-  void begin(const Eigen::MatrixXd& mass);
+  /// Begins a step with its mass matrix and laws, from these velocities.
+  void begin(const Eigen::MatrixXd& mass, const Eigen::VectorXd& velocities);
   /// Finds pieces and velocities for momentum b. @return true if a piece has changed
   bool solve(const Eigen::VectorXd& b);
   /// Velocities on the present pieces, whether they hold or not.
@@ -35,6 +35,7 @@ class JointSolution {
   bool is_prescribed(int freedom) const { return laws_[freedom].is_prescribed(); }
 
  private:
+  /// @throws RigidError when no force resists some motion: the mass matrix is singular
   void factor();
 
   std::vector<JointLaw> laws_;

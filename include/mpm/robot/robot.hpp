@@ -97,9 +97,9 @@ class Robot final : public Articulation {
   bool settle() override;
   void finish() override;
 
-  /// The largest speed of a link's points `corner` [m] away from its origin that drives ask for, `ahead` [s] after
-  /// `start` [s]; [m/s]
-  double largest_speed(std::size_t contact, double corner, double start, double ahead) const;
+  /// The largest speed of a link's points that its motion and its drives ask for, `ahead` [s] after `start` [s], in a
+  /// sync period of `period` [s]; [m/s]
+  double largest_speed(std::size_t contact, double start, double ahead, double period) const;
   RobotReport report() const;
   const RobotEnergies& energies() const { return energies_; }
   void serialise(StateArchive& archive);
@@ -117,6 +117,7 @@ class Robot final : public Articulation {
     RigidBody* body = nullptr;
     LinkMotion* motion = nullptr;
     int link = 0;
+    double reach = 0.0;        ///< distance of its farthest corner from the origin [m]
     Eigen::MatrixXd jacobian;  ///< 6 rows, a column each freedom
     bool responds = false;
     LinkMotion::Vec6 kept = LinkMotion::Vec6::Zero();    ///< velocity without a trial or an increment
@@ -156,11 +157,13 @@ class Robot final : public Articulation {
   bool predicted_ = false;
   Twist base_twist_;  ///< twist of a moving base
   RobotEnergies energies_;
+  std::vector<double> last_targets_;        ///< targets of drives in the last step
   std::vector<double> impulses_, efforts_;  ///< impulses of drives since the start, efforts in the last step
   std::vector<Wrench> sensed_, sensed_sum_;
   // Kept so that a step allocates nothing of its own.
   Eigen::VectorXd full_positions_, full_velocities_, bias_, momentum_, with_contact_, start_velocities_, mean_;
-  Eigen::MatrixXd mass_, full_jacobian_, stacked_, responses_;  ///< stacked_: Jacobians of links, transposed, side by side
+  Eigen::MatrixXd mass_, full_jacobian_, stacked_,
+      responses_;  ///< stacked_: Jacobians of links, transposed, side by side
   Eigen::VectorXd accelerations_;
   std::vector<int> link_numbers_;
   std::vector<LinkMotion::Vec6> wrenches_;

@@ -58,6 +58,8 @@ class CommandReader {
   void take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender = {});
   /// Messages taken so far, those that were refused too.
   std::uint64_t received() const;
+  /// Counts one that another reader has taken.
+  void count_message();
   /// Messages with a header that were sent and did not come, by the gaps in the numbers that each sender gives them.
   std::uint64_t missing() const;
   /// Waits until so many have been taken, for `patience` of the wall's time at most. Any thread but those of take().

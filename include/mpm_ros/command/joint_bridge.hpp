@@ -4,6 +4,7 @@
 
 #include <ros/ros.h>
 
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -17,9 +18,9 @@ namespace mpm_ros {
 class JointBridge {
  public:
   /// Subscribes at once, on the node handle's callback queue. `queue` and `health` must outlive it. `latest`: stamps of
-  /// messages are not used.
+  /// messages are not used. `heard`: called after each message, one that is refused too.
   JointBridge(ros::NodeHandle node, std::vector<mpm::RobotDefinition> robots, JointQueue& queue, NodeHealth& health,
-              bool latest);
+              bool latest, std::function<void()> heard);
 
   /// The run began (again), with these robots, which have the same names: what stamps mean from now on.
   void begin(const std::vector<mpm::RobotDefinition>& robots, const Stamps& stamps);
@@ -27,8 +28,6 @@ class JointBridge {
   /// A message for a robot. Any thread.
   void take(int robot, const sensor_msgs::JointState& message);
   void take(int robot, const trajectory_msgs::JointTrajectory& message);
-  /// Messages taken so far, those that were refused too.
-  std::uint64_t received() const;
   /// An order of a step request. `problem` says why it cannot be used.
   JointOrder read(const mpm_ros::JointCommand& message, std::string& problem) const;
 
@@ -41,10 +40,10 @@ class JointBridge {
   JointQueue& queue_;
   NodeHealth& health_;
   const bool latest_;
+  const std::function<void()> heard_;
   mutable std::mutex mutex_;  // mutex of what follows
   std::vector<mpm::RobotDefinition> robots_;
   Stamps stamps_;
-  std::uint64_t received_ = 0;
   std::vector<ros::Subscriber> subscribers_;
 };
 

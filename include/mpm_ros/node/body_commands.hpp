@@ -91,7 +91,7 @@ class BodyCommands {
   /// A recording is replayed, and nothing else taken.
   bool replays() const { return bridge_ == nullptr; }
   /// Messages on topics so far, refused ones too. Any thread.
-  std::uint64_t received() const { return replays() ? 0 : bridge_->reader().received() + joint_bridge_->received(); }
+  std::uint64_t received() const { return replays() ? 0 : bridge_->reader().received(); }
   /// Waits until so many have come, for `patience` at most. Any thread but that which hears topics; not of a replay.
   bool wait_received(std::uint64_t count, std::chrono::milliseconds patience) const;
 

@@ -165,6 +165,7 @@ std::string asymmetry(const Scene& scene, int axis) {
   if (!definition.conditions.empty() || !definition.body_forces.empty() || !definition.particle_forces.empty() ||
       !definition.tractions.empty())
     return "loads and velocity conditions are not halved; model the half by hand, with a face `symmetry`";
+  if (!definition.robots.empty()) return "half of a robot would have half the load on its joints; leave symmetric out";
   if (definition.cracks.any()) return "cracks are not halved; model the half by hand, with a face `symmetry`";
   for (const BodyDefinition& body : scene.bodies) {
     if (const std::string why = asymmetry_of_body(body, plane, tolerance, axis); !why.empty()) return why;

@@ -278,6 +278,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
       const double allowed = std::clamp(kOfGain * gained, kLeastForceError, kForceError);
       settled = sum.change <= kSettled * kSettled * sum.size && change_ <= allowed && !tools_.settle();
     }
+    if (tools_.settle()) meet();
     if (!cut) sweep_left_out(budget);
     if (budget != nullptr) budget->end_sweeps({sweeps_, pressed_.back(), change_ * pressed_.back()});
   }

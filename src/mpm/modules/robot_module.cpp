@@ -13,8 +13,7 @@ namespace {
 
 class RobotModule final : public Module {
  public:
-  explicit RobotModule(std::vector<std::unique_ptr<Robot>>& robots, const std::vector<RigidBody>& bodies)
-      : robots_(robots) {
+  RobotModule(std::vector<std::unique_ptr<Robot>>& robots, const std::vector<RigidBody>& bodies) : robots_(robots) {
     for (std::size_t r = 0; r < robots_.size(); ++r) {
       const auto& contacts = robots_[r]->definition().contacts;
       for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -39,15 +38,14 @@ class RobotModule final : public Module {
   }
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override {
     for (std::size_t l = 0; l < links_.size(); ++l) {
-      const Box bounds = links_[l].body->surface().bounds();
-      const double corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).norm();
       StepLimit own;
       own.by = this;
       own.part = static_cast<int>(l);
       for (const double part : {0.0, 0.5, 1.0}) {
         const double gained = part * period.length * links_[l].body->link_motion()->unprescribed_acceleration(0.0);
-        own.speed = std::max(own.speed, gained + links_[l].robot->largest_speed(links_[l].contact, corner, period.start,
-                                                                                part * period.length));
+        const Robot& robot = *links_[l].robot;
+        own.speed = std::max(own.speed, gained + robot.largest_speed(links_[l].contact, period.start,
+                                                                     part * period.length, period.length));
       }
       own.dt = period.reach() / own.speed;
       if (own.speed > 0.0) limit.tighten(own);

@@ -124,7 +124,7 @@ JointImpulses JointLaw::parts(double velocity, double impulse) const {
     parts.drive = std::clamp(left, -dt_ * a.limit, dt_ * a.limit);
     left -= parts.drive;
   }
-  if (at_limit) parts.limit = left;
+  parts.limit = left;  // nothing, but at a limit, or where contact was not solved to the end
   return parts;
 }
 

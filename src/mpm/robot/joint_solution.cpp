@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/rigid/surface.hpp"
+
 namespace mpm {
 namespace {
 
@@ -21,8 +23,9 @@ JointSolution::JointSolution(int freedoms)
       right_(freedoms),
       factors_(freedoms) {}
 
-void JointSolution::begin(const Eigen::MatrixXd& mass) {
+void JointSolution::begin(const Eigen::MatrixXd& mass, const Eigen::VectorXd& velocities) {
   mass_ = mass;
+  velocities_ = velocities;
   for (std::size_t i = 0; i < laws_.size(); ++i) {
     // The piece at the last velocity is the best guess: laws have other pieces in each step.
     pieces_[i] = laws_[i].piece_at(velocities_[static_cast<Eigen::Index>(i)]);
@@ -44,6 +47,10 @@ void JointSolution::factor() {
     }
   }
   factors_.compute(reduced_);
+  if (factors_.info() != Eigen::Success) {
+    throw RigidError(
+        "no mass or moment of inertia resists a motion of its joints; give its links some about every axis");
+  }
 }
 
 void JointSolution::solve_linear(const Eigen::VectorXd& b) {

@@ -10,7 +10,8 @@
 namespace mpm {
 namespace {
 
-constexpr int kBiasRounds = 3;  ///< each gains a factor of a step's angle
+constexpr int kBiasRounds = 3;      ///< each gains a factor of a step's angle
+constexpr double kRateStep = 1e-6;  ///< [s] over which the rate of a target is taken for the limit of the step
 
 /// Twist of a body, in its own axes, as world twist, and back. Rotation first.
 LinkMotion::Vec6 to_vec6(const Vec3& rotation, const Vec3& translation) {
@@ -57,6 +58,7 @@ Robot::Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector
   mass_ = Eigen::MatrixXd::Zero(own, own);
   impulses_.assign(definition_.joints.size(), 0.0);
   efforts_.assign(definition_.joints.size(), 0.0);
+  last_targets_.assign(definition_.joints.size(), 0.0);
   sensed_.resize(definition_.sensors.size());
   sensed_sum_.resize(definition_.sensors.size());
   find_parts();
@@ -71,6 +73,8 @@ Robot::Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector
     link.body = &*body;
     link.link = contact.link;
     link.jacobian = Eigen::MatrixXd::Zero(6, own);
+    const Box bounds = body->surface().bounds();
+    link.reach = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).norm();
     links_.push_back(std::move(link));
   }
   full_positions();
@@ -206,7 +210,11 @@ void Robot::set_laws(double time) {
     const LinkMotion::Vec6 twist = to_vec6(back * base_twist_.angular, back * base_twist_.linear);
     for (int k = 0; k < 6; ++k) laws[k] = JointLaw::prescribed(twist[k]);
   }
-  for (std::size_t j = 0; j < definition_.joints.size(); ++j) laws[base + j] = JointLaw(actions_of(j, time), dt_);
+  for (std::size_t j = 0; j < definition_.joints.size(); ++j) {
+    laws[base + j] = JointLaw(actions_of(j, time), dt_);
+    const bool position = definition_.joints[j].drive == JointDrive::position;
+    last_targets_[j] = targets_[j].at(position ? time + dt_ : time + 0.5 * dt_);
+  }
 }
 
 void Robot::begin_step(double time, double dt) {
@@ -217,7 +225,11 @@ void Robot::begin_step(double time, double dt) {
   engine_->set_positions(base_, full_positions_);
   reduce_mass();
   set_laws(time);
-  solution_.begin(mass_);
+  try {
+    solution_.begin(mass_, velocities_);
+  } catch (const RigidError& error) {
+    throw RigidError(fmt::format("robot '{}': {}", definition_.name, error.what()));
+  }
   const Eigen::VectorXd& bias = reduced_bias(velocities_);
   momentum_.noalias() = mass_ * velocities_;
   momentum_ -= dt_ * bias;
@@ -419,23 +431,35 @@ void Robot::move() {
     find_jacobian(link.link, link.jacobian);
     const LinkMotion::Vec6 twist = link.jacobian * velocities_;
     const LinkMotion::Vec6 before = link.jacobian * start_velocities_;
-    link.motion->set_acceleration((twist - before).tail<3>().norm() / dt_);
+    const LinkMotion::Vec6 change = twist - before;
+    link.motion->set_acceleration((change.tail<3>().norm() + link.reach * change.head<3>().norm()) / dt_);
     link.motion->set_next(engine_->pose(link.link), {twist.tail<3>(), twist.head<3>()});
   }
 }
 
-double Robot::largest_speed(std::size_t contact, double corner, double start, double ahead) const {
+double Robot::largest_speed(std::size_t contact, double start, double ahead, double period) const {
   const Link& link = links_[contact];
-  Eigen::VectorXd asked = velocities_;
   const int base = base_freedoms();
+  double speed = 0.0;
+  // Joints may turn either way: one does not cancel another.
+  const auto add = [&](Eigen::Index freedom, double velocity) {
+    const auto column = link.jacobian.col(freedom);
+    speed += std::abs(velocity) * (column.tail<3>().norm() + link.reach * column.head<3>().norm());
+  };
   for (std::size_t j = 0; j < definition_.joints.size(); ++j) {
     const JointDefinition& joint = definition_.joints[j];
-    double& velocity = asked[base + static_cast<Eigen::Index>(j)];
+    const double most = definition_.model.joints[joint.joint].speed;
     double wanted = 0.0;
     if (joint.drive == JointDrive::velocity) wanted = targets_[j].at(start + ahead);
-    if (joint.drive == JointDrive::position) wanted = targets_[j].rate(start + ahead, std::max(ahead, 1e-6));
-    if (std::abs(wanted) > std::abs(velocity)) velocity = wanted;
+    if (joint.drive == JointDrive::position) {
+      const double way = targets_[j].at(start + ahead) - positions_[static_cast<Eigen::Index>(j)];
+      wanted = joint.stiffness > 0.0 ? targets_[j].rate(start + std::max(ahead, kRateStep), kRateStep)
+                                     : way / std::max(ahead, period);
+    }
+    const Eigen::Index freedom = base + static_cast<Eigen::Index>(j);
+    add(freedom, std::max(std::abs(velocities_[freedom]), std::min(std::abs(wanted), most)));
   }
+  Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
   if (definition_.base.kind == BaseKind::moving) {
     Vec3 linear, angular;
     for (int k = 0; k < 3; ++k) {
@@ -443,14 +467,11 @@ double Robot::largest_speed(std::size_t contact, double corner, double start, do
       angular[k] = definition_.base.rotation_rate[k](start + ahead);
     }
     const Quat back = base_.orientation.conjugate();
-    asked.head<6>() = to_vec6(back * angular, back * linear);
+    twist = to_vec6(back * angular, back * linear);
+  } else if (base > 0) {
+    twist = velocities_.head<6>();
   }
-  double speed = 0.0;
-  // Joints may turn either way: no cancelling of one by another.
-  for (Eigen::Index i = 0; i < asked.size(); ++i) {
-    speed +=
-        std::abs(asked[i]) * (link.jacobian.col(i).tail<3>().norm() + corner * link.jacobian.col(i).head<3>().norm());
-  }
+  for (int k = 0; k < base; ++k) add(k, twist[k]);
   return speed;
 }
 

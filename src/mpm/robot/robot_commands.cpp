@@ -116,7 +116,7 @@ RobotReport Robot::report() const {
     if (!model.mimic) {
       one.effort = efforts_[joint];
       one.impulse = impulses_[joint];
-      one.target = targets_[joint].at(time_ + dt_);
+      one.target = last_targets_[joint];
       one.drive = definition_.joints[joint].drive;
     }
     report.joints.push_back(one);
@@ -153,6 +153,11 @@ void Robot::serialise(StateArchive& archive) {
                          &energies_.friction, &energies_.limit, &energies_.contact, &energies_.loss}) {
     archive.value("energy_" + std::to_string(energy - &energies_.kinetic), *energy);
   }
+  archive.list("targets", last_targets_);
+  std::vector<double> accelerations;
+  for (const Link& link : links_) accelerations.push_back(link.motion->unprescribed_acceleration(0.0));
+  archive.list("accelerations", accelerations);
+  for (std::size_t l = 0; l < links_.size(); ++l) links_[l].motion->set_acceleration(accelerations.at(l));
   archive.value("time", time_);
   archive.value("dt", dt_);
   // Speeds of links, which the limit of the step asks for, follow from positions.

@@ -53,7 +53,8 @@ const KeyTable<JointDefinition>& joint_keys() {
                               {"0; a drive by velocity is rigid", "effort by the difference of velocities", "800"}),
                  other<Joint>("effort", "N m or N > 0",
                               {"that of the URDF; 0 there is none", "largest effort of the drive", "2000"}),
-                 other<Joint>("position", "angle or length", {"0", "at the start", "30 deg"})})
+                 other<Joint>("position", "angle or length",
+                              {"0; of a drive by position where its target begins", "at the start", "30 deg"})})
           .advise({{"velocity", "write drive: velocity, and target"},
                    {"kp", "write stiffness"},
                    {"kd", "write damping"},

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "mpm/math/nearest.hpp"
@@ -12,6 +13,8 @@
 
 namespace mpm {
 namespace {
+
+constexpr double kSamePlace = 1e-6;  ///< [m], [rad], or part of the position
 
 /// Dimensions of a joint's numbers: rotations have angles where translations have lengths.
 struct JointDimensions {
@@ -61,22 +64,42 @@ BaseDefinition read_base(const Value& value, Scene& scene) {
   return base;
 }
 
+/// The value of a target at the start.
+double at_start(const Value& value, const Function& target) {
+  try {
+    return target(0.0);
+  } catch (const FunctionError& error) {
+    value.fail(error.what());
+  }
+}
+
+/// Refuses names that cannot be a part of topics and files.
+void check_name(const Value& value, const std::string& name) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (!name.empty() && std::all_of(name.begin(), name.end(), fits)) return;
+  value.fail(
+      fmt::format("'{}' becomes part of topics and files, which have letters, digits and _ alone; rename it in "
+                  "the URDF",
+                  name));
+}
+
 void read_joint(const Value& value, const ModelJoint& model, JointDefinition& joint) {
   const JointDimensions dimensions = dimensions_of(model);
   const Map map = read_keys(value, joint_keys(), joint);
-  const auto position = map.find("position");
+  const auto position = map.find("position"), target = map.find("target");
   if (position) joint.position = position->number(dimensions.position);
+  if (target) {
+    const Dimension& dimension = joint.drive == JointDrive::velocity   ? dimensions.velocity
+                                 : joint.drive == JointDrive::position ? dimensions.position
+                                                                       : dimensions.effort;
+    joint.target = target->function(dimension);
+    if (joint.drive == JointDrive::position && !position) joint.position = at_start(*target, *joint.target);
+  }
   if (!(joint.position >= model.lower && joint.position <= model.upper)) {
     (position ? *position : value)
         .fail(
             fmt::format("the joint starts at {:g}, outside its limits from {:g} to {:g}; write a position within them",
                         joint.position, model.lower, model.upper));
-  }
-  if (const auto target = map.find("target")) {
-    const Dimension& dimension = joint.drive == JointDrive::velocity   ? dimensions.velocity
-                                 : joint.drive == JointDrive::position ? dimensions.position
-                                                                       : dimensions.effort;
-    joint.target = target->function(dimension);
   }
   const auto stiffness = map.find("stiffness"), damping = map.find("damping");
   if (stiffness) {
@@ -91,6 +114,15 @@ void read_joint(const Value& value, const ModelJoint& model, JointDefinition& jo
       damping->fail("a drive by position without stiffness is rigid; write stiffness too, or leave it out");
     }
     joint.damping = damping->non_negative(dimensions.damping);
+  }
+  if (target && position && joint.drive == JointDrive::position && joint.stiffness == 0.0) {
+    const double begin = at_start(*target, *joint.target);
+    if (!(std::abs(begin - joint.position) <= kSamePlace * std::max(1.0, std::abs(begin)))) {
+      target->fail(
+          fmt::format("it begins at {:g}, and the joint at {:g}, from where a rigid drive would jump; begin at "
+                      "one place, or write stiffness",
+                      begin, joint.position));
+    }
   }
   if (const auto effort = map.find("effort")) joint.effort = effort->positive(dimensions.effort);
 }
@@ -125,6 +157,22 @@ void read_joints(const Map& map, RobotDefinition& robot) {
   }
 }
 
+/// Refuses starts that put a joint outside its limits, since it follows another one.
+void check_mimics(const Map& map, const RobotDefinition& robot) {
+  for (const ModelJoint& model : robot.model.joints) {
+    if (!model.mimic) continue;
+    const auto leads = [&](const JointDefinition& joint) { return joint.joint == model.mimic->joint; };
+    const auto leader = std::find_if(robot.joints.begin(), robot.joints.end(), leads);
+    const double position = model.mimic->factor * leader->position + model.mimic->offset;
+    if (position >= model.lower && position <= model.upper) continue;
+    map.fail(
+        fmt::format("joint '{}', which mimics '{}', starts at {:g}, outside its limits from {:g} to {:g}; write "
+                    "another position of '{}'",
+                    model.name, robot.model.joints[model.mimic->joint].name, position, model.lower, model.upper,
+                    robot.model.joints[model.mimic->joint].name));
+  }
+}
+
 /// Links that meet the material, as rigid bodies of the scene named after the robot and the link.
 void read_links(const Map& map, const std::string& path, const FrictionLaw& friction, Scene& scene,
                 RobotDefinition& robot) {
@@ -137,9 +185,18 @@ void read_links(const Map& map, const std::string& path, const FrictionLaw& fric
     if (link < 0) {
       value.fail(fmt::format("the robot has no link '{}'; {}", name, suggest(name, names_of(robot.model.links))));
     }
+    check_name(value, name);
     const Map own(value, {"friction"}, {{"pose", "a link is where its joints put it"}});
     RigidBodyDefinition body;
     body.name = robot.name + "/" + name;
+    const std::string in_files = robot.name + "_" + name;
+    for (const RigidBodyDefinition& other : scene.definition.rigid_bodies) {
+      std::string theirs = other.name;
+      std::replace(theirs.begin(), theirs.end(), '/', '_');
+      if (theirs == in_files) {
+        value.fail(fmt::format("files of '{}' and of '{}' would have one name; rename one", body.name, other.name));
+      }
+    }
     try {
       body.surface = load_urdf_link(path, name, thinnest_mesh(scene.definition));
     } catch (const RigidError& error) {
@@ -163,6 +220,7 @@ void read_sensors(const Map& map, RobotDefinition& robot) {
     if (joint < 0) {
       value.fail(fmt::format("the robot has no joint '{}'; {}", name, suggest(name, names_of(robot.model.joints))));
     }
+    check_name(value, name);
     robot.sensors.push_back(joint);
   }
 }
@@ -201,6 +259,7 @@ void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene) {
                       robot.model.links.front().name));
     }
     read_joints(map, robot);
+    check_mimics(map, robot);
     read_links(map, path, friction, scene, robot);
     read_sensors(map, robot);
     scene.definition.robots.push_back(std::move(robot));

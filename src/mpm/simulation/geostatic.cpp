@@ -104,6 +104,7 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
     body.velocity = body.rotation_rate = {};
     body.free.reset();
   }
+  part.robots.clear();  // their links stand where the robots put them
   for (ConditionDefinition& condition : part.conditions) {
     condition.region.velocity = condition.region.rotation_rate = {};
     condition.velocity = Function();

@@ -148,6 +148,10 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
     health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[body], leaf, refused));
   }
   if (leaf == kFollowing) return;  // looked up here, not received
+  count_message();
+}
+
+void CommandReader::count_message() {
   {
     const std::lock_guard<std::mutex> lock(received_mutex_);
     ++received_;

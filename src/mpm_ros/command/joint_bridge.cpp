@@ -17,8 +17,8 @@ constexpr std::uint32_t kMessages = 1000;  ///< messages that may wait for the t
 }  // namespace
 
 JointBridge::JointBridge(ros::NodeHandle node, std::vector<mpm::RobotDefinition> robots, JointQueue& queue,
-                         NodeHealth& health, bool latest)
-    : queue_(queue), health_(health), latest_(latest), robots_(std::move(robots)) {
+                         NodeHealth& health, bool latest, std::function<void()> heard)
+    : queue_(queue), health_(health), latest_(latest), heard_(std::move(heard)), robots_(std::move(robots)) {
   for (int robot = 0; robot < static_cast<int>(robots_.size()); ++robot) {
     subscribe<sensor_msgs::JointState>(node, robot, topics::kJointCommand);
     subscribe<trajectory_msgs::JointTrajectory>(node, robot, topics::kJointTrajectory);
@@ -62,17 +62,13 @@ void JointBridge::take(int robot, const trajectory_msgs::JointTrajectory& messag
 }
 
 void JointBridge::push_or_refuse(const char* leaf, JointOrder order, const std::string& problem) {
-  ++received_;
   const std::string topic = topics::of_robot(robots_[static_cast<std::size_t>(order.robot)].name, leaf);
-  if (!problem.empty()) return health_.refuse(fmt::format("a message on {}: {}", topic, problem));
-  if (!queue_.push(std::move(order))) {
+  if (!problem.empty()) {
+    health_.refuse(fmt::format("a message on {}: {}", topic, problem));
+  } else if (!queue_.push(std::move(order))) {
     health_.refuse(fmt::format("a message on {}: {} commands of joints wait already", topic, JointQueue::kMost));
   }
-}
-
-std::uint64_t JointBridge::received() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return received_;
+  heard_();
 }
 
 JointOrder JointBridge::read(const mpm_ros::JointCommand& message, std::string& problem) const {

@@ -69,6 +69,8 @@ void JointQueue::serialise(mpm::StateArchive& archive) {
     archive.list("velocities", order.velocities);
     archive.list("times", order.times);
     archive.value("arrival", order.arrival);
+    archive.value("requested_sec", order.requested.sec);
+    archive.value("requested_nsec", order.requested.nsec);
     std::int64_t stamp = order.stamp.value_or(-1);
     archive.value("stamp", stamp);
     order.stamp = stamp < 0 ? std::nullopt : std::optional<std::int64_t>(stamp);

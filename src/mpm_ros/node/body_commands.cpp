@@ -64,7 +64,8 @@ BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const 
                                             parameters.tf_time == StampUse::latest,
                                             parameters.command_time == StampUse::latest);
   joint_bridge_ = std::make_unique<JointBridge>(node, scene.definition.robots, memory_.joints, health_,
-                                                parameters.command_time == StampUse::latest);
+                                                parameters.command_time == StampUse::latest,
+                                                [this] { bridge_->reader().count_message(); });
 }
 
 void BodyCommands::listen() {
@@ -273,14 +274,18 @@ StepCommands BodyCommands::read(const std::vector<Command>& requested, const std
     if (!problem.empty()) return commands;
     // Without an arrival rigid drives take the whole step.
     if (order.arrival == 0) order.arrival = now + periods * sync;
+    if (order.arrival <= now) {
+      problem = fmt::format("the command for '{}': its arrival is not after the present, {:.9f} s", message.robot,
+                            mpm::seconds_of(now));
+      return commands;
+    }
     commands.joints.push_back(std::move(order));
   }
   return commands;
 }
 
 bool BodyCommands::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
-  const std::uint64_t joints = joint_bridge_->received();
-  return count <= joints || bridge_->reader().wait_received(count - joints, patience);
+  return bridge_->reader().wait_received(count, patience);
 }
 
 void BodyCommands::forget_frames() {

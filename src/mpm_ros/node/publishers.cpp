@@ -48,14 +48,15 @@ void Publishers::add_cracks() {
 }
 
 void Publishers::add_robot(const mpm::RobotDefinition& robot) {
-  const std::string joints = topics::of_robot(robot.name, topics::kJointStates);
-  if (publishers_.count(joints) > 0) return;
   ros::Publisher& commands = publishers_[topics::kJointCommands];
   if (!commands) commands = node_.advertise<JointCommand>(topics::kJointCommands, kSmall);
-  publishers_[joints] = node_.advertise<sensor_msgs::JointState>(joints, kSmall);
-  for (const int sensor : robot.sensors) {
+  const std::string joints = topics::of_robot(robot.name, topics::kJointStates);
+  ros::Publisher& states = publishers_[joints];
+  if (!states) states = node_.advertise<sensor_msgs::JointState>(joints, kSmall);
+  for (const int sensor : robot.sensors) {  // a reset may bring others
     const std::string topic = topics::of_robot(robot.name, "sensors/" + robot.model.joints[sensor].name + "/wrench");
-    publishers_[topic] = node_.advertise<geometry_msgs::WrenchStamped>(topic, kSmall);
+    ros::Publisher& wrench = publishers_[topic];
+    if (!wrench) wrench = node_.advertise<geometry_msgs::WrenchStamped>(topic, kSmall);
   }
 }
 

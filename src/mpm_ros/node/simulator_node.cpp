@@ -177,11 +177,13 @@ std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::checked(Subject loa
     for (std::size_t body = 0; body < scene.commands.size(); ++body) {
       names.emplace_back(scene.definition.rigid_bodies[body].name, scene.commands[body].frame);
     }
+    for (const mpm::RobotDefinition& robot : scene.definition.robots) names.emplace_back(robot.name, "");
     return names;
   };
   if (bodies(subject->scene) != bodies(subject_->scene)) {
     throw ParameterError(
-        "neither a reset nor a checkpoint can change the names of rigid bodies, or the tf frames that they follow: the "
+        "neither a reset nor a checkpoint can change the names of rigid bodies and robots, or the tf frames that they "
+        "follow: the "
         "node's topics are "
         "theirs; start another node for that scene");
   }

@@ -63,7 +63,7 @@ void find_files(const YAML::Node& node, const std::string& scene_path, std::vect
 std::vector<NamedFile> named_files(const std::string& text, const std::string& scene_path) {
   std::vector<NamedFile> files;
   const YAML::Node scene = YAML::Load(text);
-  for (const char* section : {"bodies", "rigid_bodies", "cracks"}) {
+  for (const char* section : {"bodies", "rigid_bodies", "robots", "cracks"}) {
     if (const YAML::Node part = scene[section]) find_files(part, scene_path, files);
   }
   return files;

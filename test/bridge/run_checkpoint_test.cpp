@@ -12,6 +12,7 @@
 #include "mpm_ros/command/command_limiter.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/command/joint_queue.hpp"
 #include "mpm_ros/command/turning_twists.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run.hpp"
@@ -262,6 +263,8 @@ struct Pressed {
     watch.serialise(archive);
     limiter.serialise(archive);
     turning.serialise(archive);
+    const mpm::StateArchive::Group group(archive, "joints");
+    joints.serialise(archive);
   }
   void go(int periods) {
     for (int n = 0; n < periods && !run->ended(); ++n) {
@@ -287,6 +290,7 @@ struct Pressed {
   NodeHealth health;
   CommandLimiter limiter{{}, health};
   TurningTwists turning;
+  JointQueue joints;
   std::unique_ptr<mpm_ros::Run> run;
   int silences = 0;
 };
@@ -315,12 +319,22 @@ TEST_F(RunCheckpoint, CommandsThatWaitAndAveragesUnderWayGoOn) {
 TEST_F(RunCheckpoint, RunSceneDoesNotDropCommandsThatWait) {
   Pressed first;
   fill(first.queue);
+  JointOrder order;
+  order.joints = {"boom", "arm"};
+  order.values = {0.1, 0.2};
+  order.stamp = 1'000'000'000;
+  first.joints.push(order);
   first.go(1);
   first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.serialise(archive); });
   options_.scene.clear();
   options_.end.clear();
   options_.resume = folder_.file("press.h5");
-  expect_bad_input("2 commands that wait for their time");
+  expect_bad_input("3 commands that wait for their time");
+  Pressed second(folder_.file("press.h5"));
+  const std::vector<JointOrder> due = second.joints.take(1'000'000'000);
+  ASSERT_EQ(due.size(), 1u);
+  EXPECT_EQ(due[0].joints, order.joints);
+  EXPECT_EQ(due[0].values, order.values);
 }
 
 }  // namespace run_checkpoint_test

@@ -110,6 +110,10 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::rings:
       add_body(d).inner_radius = 0.1;
       break;
+    case Feature::robots:
+      d.robots.emplace_back();
+      d.robots.back().name = "digger";
+      break;
     case Feature::sleep:
       if (!d.sleep) d.sleep = SleepDefinition{1.0, 1.0, 1.0};
       break;

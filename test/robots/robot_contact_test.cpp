@@ -229,6 +229,27 @@ TEST(RobotContact, AMovingBaseActsAsTheSameRigidBody) {
   EXPECT_LT(apart, 1e-9 * most);
 }
 
+// At 100 m/s, above the clay, a cell of 4 cm is crossed in 0.4 ms: so many steps in the first sync period as in the
+// next.
+TEST(RobotContact, TheFirstStepsKnowHowFastDrivesAre) {
+  std::string text = clay(fmt::format(R"(robots:
+  - name: gantry
+    urdf: {}
+    base: {{pose: {{position: [0, 0, 0.3]}}}}
+    links: {{plate: {{friction: 0.3}}}}
+    joints: {{along: {{drive: velocity, target: 100}}, down: {{drive: position}}, turn: {{drive: position}}}}
+)",
+                                      data_file("gantry.urdf")));
+  const std::string sync = "sync: 0.0002";
+  text.replace(text.find(sync), sync.size(), "sync: 0.001");
+  Simulation run = run_of(text);
+  run.advance();
+  const std::uint64_t first = run.state().step.steps;
+  run.advance();
+  EXPECT_EQ(run.state().step.steps, 2 * first);
+  EXPECT_GE(first, 3u);  // 0.1 m of way
+}
+
 TEST(RobotContact, TheSameBitsForAnyNumberOfThreads) {
   Simulation one = run_of(leg("usavg")), two = run_of(leg("usavg"), 2);
   for (int k = 0; k < 400; ++k) {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/math/nearest.hpp"
-
 namespace mpm {
 namespace {
 
@@ -79,7 +77,11 @@ Robot::Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector
   }
   full_positions();
   engine_->set_positions(base_, full_positions_);
-  for (Link& link : links_) link.motion = &link.body->join(*this, response_, engine_->pose(link.link));
+  reduce_mass();
+  for (Link& link : links_) {
+    link.motion = &link.body->join(*this, response_, engine_->pose(link.link));
+    find_jacobian(link.link, link.jacobian);
+  }
   energies_.potential = engine_->potential();
 }
 
@@ -221,9 +223,7 @@ void Robot::begin_step(double time, double dt) {
   time_ = time;
   dt_ = dt;
   predicted_ = false;
-  full_positions();
-  engine_->set_positions(base_, full_positions_);
-  reduce_mass();
+  // Mass matrix and Jacobians are those that move() found where the robot is.
   set_laws(time);
   try {
     solution_.begin(mass_, velocities_);
@@ -236,7 +236,6 @@ void Robot::begin_step(double time, double dt) {
   solution_.solve(momentum_);
   response_.links.clear();
   for (Link& link : links_) {
-    find_jacobian(link.link, link.jacobian);
     link.motion->set_origin(link.body->pose().position);
     link.motion->clear_taken();
     link.motion->set_pushed(LinkMotion::Vec6::Zero());
@@ -429,9 +428,7 @@ void Robot::move() {
   energies_.potential = engine_->potential();
   for (Link& link : links_) {
     find_jacobian(link.link, link.jacobian);
-    const LinkMotion::Vec6 twist = link.jacobian * velocities_;
-    const LinkMotion::Vec6 before = link.jacobian * start_velocities_;
-    const LinkMotion::Vec6 change = twist - before;
+    const LinkMotion::Vec6 twist = link.jacobian * velocities_, change = twist - link.jacobian * start_velocities_;
     link.motion->set_acceleration((change.tail<3>().norm() + link.reach * change.head<3>().norm()) / dt_);
     link.motion->set_next(engine_->pose(link.link), {twist.tail<3>(), twist.head<3>()});
   }

@@ -160,9 +160,10 @@ void Robot::serialise(StateArchive& archive) {
   for (std::size_t l = 0; l < links_.size(); ++l) links_[l].motion->set_acceleration(accelerations.at(l));
   archive.value("time", time_);
   archive.value("dt", dt_);
-  // Speeds of links, which the limit of the step asks for, follow from positions.
+  // Mass matrix and Jacobians, with which the next step and its limit begin, follow from positions.
   full_positions();
   engine_->set_positions(base_, full_positions_);
+  reduce_mass();
   for (Link& link : links_) find_jacobian(link.link, link.jacobian);
 }
 

@@ -19,7 +19,7 @@ class JointSolution {
  public:
   explicit JointSolution(int freedoms);
 
-  /// Laws of the step. Pieces stay as they are where a law still has that piece.
+  /// Laws of the step, to be set before begin().
   std::vector<JointLaw>& laws() { return laws_; }
   const std::vector<JointLaw>& laws() const { return laws_; }
   /// Begins a step with its mass matrix and laws, from these velocities.

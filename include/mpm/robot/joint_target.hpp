@@ -24,7 +24,6 @@ class JointTarget {
   /// Positions by time, joined by cubic polynomials that have the knots' velocities, or by straight lines where a knot
   /// has none; after the last one it stays there.
   void follow(std::vector<JointKnot> knots) { knots_ = std::move(knots); }
-  bool follows() const { return !knots_.empty(); }
   /// The drive's own quantity at a time. @throws FunctionError when a function is not finite there
   double at(double time) const;
   /// Rate of a position target at a time [m/s], [rad/s]; of a function that of the step before it.

@@ -1,6 +1,6 @@
 // A robot in the run: its joints' positions and velocities, what drives them, and the links that meet the material.
 //
-// A step: begin_step() reads the targets of drives and finds mass matrix and Jacobians where the robot is; predict()
+// A step: begin_step() reads the targets of drives, with mass matrix and Jacobians where the robot is; predict()
 // finds the velocities that the step would have without contact; contact changes them, each impulse by
 // J (M + C)^-1 J^T, where C is what drives, damping and limits add (joint_law.hpp); finish() ends that; end_step()
 // books what each gave, and moves the joints by the velocities of the step's end. Coriolis forces are those of the mean
@@ -84,7 +84,6 @@ class Robot final : public Articulation {
   void check_trajectory(int joint, const std::vector<JointKnot>& knots, double now) const;
   /// Follows a trajectory that has been checked.
   void follow(int joint, std::vector<JointKnot> knots, double now);
-  JointDrive drive(int joint) const { return definition_.joints[joint].drive; }
 
   void begin_step(double time, double dt);
   void end_step();

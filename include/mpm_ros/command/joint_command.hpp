@@ -20,7 +20,7 @@ namespace mpm_ros {
 struct JointOrder {
   int robot = 0;
   std::vector<std::string> joints;
-  std::vector<double> values;  ///< as JointCommand.msg has them, so are the others
+  std::vector<double> values;  ///< as JointCommand.msg has them, as those below
   std::vector<double> velocities;
   std::vector<double> times;  ///< [s] simulated; before it is applied from its start on
   std::int64_t effect = 0;    ///< [ns] simulated

@@ -24,7 +24,8 @@
 #include "mpm/math/state_archive.hpp"
 #include "mpm/math/stopped.hpp"
 #include "mpm/ranks/communicator.hpp"
-#include "mpm/robot/robot.hpp"
+#include "mpm/robot/joint_target.hpp"
+#include "mpm/robot/robot_report.hpp"
 
 namespace mpm {
 

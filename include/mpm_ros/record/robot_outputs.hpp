@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mpm/math/state_archive.hpp"
-#include "mpm/robot/robot.hpp"
+#include "mpm/robot/robot_report.hpp"
 
 namespace mpm_ros {
 

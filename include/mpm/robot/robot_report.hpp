@@ -1,4 +1,4 @@
-// What a robot reports at a sync point: joints, sensors, energies.
+// Report of a robot at a sync point: joints, sensors, energies.
 #pragma once
 
 #include <string>

@@ -57,6 +57,9 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::cracks:
       d.cracks.list.emplace_back();
       break;
+    case Feature::collisions:
+      add_body(d).collide.emplace();
+      break;
     case Feature::damping:
       d.method.damping.grid = Function(1.0);
       d.method.damping.in_force = true;
@@ -164,8 +167,8 @@ int processes(const std::vector<Feature>& features) {
 std::set<Feature> had_by(const std::vector<Feature>& asked) {
   std::set<Feature> had(asked.begin(), asked.end());
   const auto has = [&](Feature feature) { return had.count(feature) > 0; };
-  for (const Feature tool : {Feature::particle_tools, Feature::divided_bodies, Feature::free_bodies, Feature::rings,
-                             Feature::thin_tools, Feature::tool_laws}) {
+  for (const Feature tool : {Feature::collisions, Feature::particle_tools, Feature::divided_bodies,
+                             Feature::free_bodies, Feature::rings, Feature::thin_tools, Feature::tool_laws}) {
     if (has(tool) && !has(Feature::contact_at_nodes)) had.insert(Feature::contact_at_points);
   }
   if (has(Feature::sleep_damping)) had.insert(Feature::sleep);

@@ -33,14 +33,19 @@ class ConjugateSweeps {
     for (std::size_t i = 0; i < points.size(); ++i) memory_.before[i] = points[i].impulse;
   }
 
-  /// Call after each sweep: `add(point, impulse)` is called for every point, with an impulse along the earlier
-  /// directions.
-  template <class Add>
-  void go_on(std::vector<Point>& points, Add&& add) {
+  /// Weighted square of the changes since begin().
+  double change(const std::vector<Point>& points) const {
     double now = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       now += points[i].with_body[0] * (points[i].impulse - memory_.before[i]).squaredNorm();
     }
+    return now;
+  }
+
+  /// Call after each sweep: `add(point, impulse)` is called for every point, with an impulse along the earlier
+  /// directions. `now`: change() of all points that are solved together.
+  template <class Add>
+  void go_on(std::vector<Point>& points, double now, Add&& add) {
     const double part = last_ > 0.0 ? now / last_ : 0.0;
     const bool again = part > 1.0;
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,19 +1,20 @@
-// The free bodies and the robots among those that contact acts on: their velocities while contact is solved, and the
-// impulse that contact gave to each.
+// The free bodies and the robots among those that contact acts on: their velocities while contact is solved, the
+// impulse that contact gave to each, and where bodies meet each other.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
+#include "mpm/contact/body_contact.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
 
 class FreeBodies {
  public:
-  /// `bodies` must outlive this object.
-  FreeBodies(const std::vector<RigidBody*>& bodies, const Vec3& gravity)
-      : bodies_(bodies), gravity_(gravity), taken_(bodies.size()) {
+  /// `bodies` must outlive this object. @throws RigidError as BodyContact does
+  FreeBodies(const std::vector<RigidBody*>& bodies, const Vec3& gravity, const BodyContactSettings& meeting)
+      : bodies_(bodies), gravity_(gravity), taken_(bodies.size()), meeting_(bodies, meeting) {
     for (RigidBody* body : bodies_) {
       const LinkMotion* link = body->link_motion();
       if (link == nullptr) continue;
@@ -28,6 +29,22 @@ class FreeBodies {
   }
   /// Null for a body whose motion is prescribed.
   DynamicMotion* motion(int body) const { return bodies_[body]->dynamic_motion(); }
+  /// Finds where bodies may meet each other, or walls, in the step.
+  void find_meetings(double dt) {
+    if (meeting_.any()) meeting_.find(dt);
+  }
+  /// Where they may, for a solution that then begins; null where none may.
+  BodyContact* begin_meeting() {
+    if (!meeting_.touches()) return nullptr;
+    meeting_.begin();
+    return &meeting_;
+  }
+  /// The same within a solution, when settle() has changed compliances.
+  BodyContact* same_meeting() {
+    if (!meeting_.touches()) return nullptr;
+    meeting_.find_compliance();
+    return &meeting_;
+  }
   /// Gives the bodies the velocities that the step would have without contact.
   void predict(double dt) {
     each([&](RigidBody& body, FreeMotion& motion, Taken&) { motion.predict(body.pose(), body.twist(), gravity_, dt); });
@@ -61,16 +78,16 @@ class FreeBodies {
   /// Books an impulse on the material [N s]. `mean_slip`: mean velocity of the material
   /// relative to the body [m/s].
   void take(int body, const Vec3& impulse, const Vec3& place, const Vec3& normal, const Vec3& mean_slip) {
-    if (LinkMotion* link = bodies_[body]->link_motion()) {
-      link->take(-impulse, place, -impulse.dot(normal) * mean_slip.dot(normal));
-      return;
-    }
-    const FreeMotion* free = bodies_[body]->free_motion();
-    if (free == nullptr) return;
-    Taken& taken = taken_[body];
-    taken.impulse.linear -= impulse;
-    taken.impulse.angular -= (place - free->centre()).cross(impulse);
-    taken.loss -= impulse.dot(normal) * mean_slip.dot(normal);
+    give(body, -impulse, place, -impulse.dot(normal) * mean_slip.dot(normal));
+  }
+  /// Books the impulses of bodies on each other. `with_loss`: not of an increment.
+  void take_meetings(bool with_loss) {
+    meeting_.each_impulse(with_loss, [&](const BodyImpulse& given) {
+      // The loss counts once: with a body that can move.
+      const bool first = bodies_[given.body]->dynamic_motion() != nullptr;
+      give(given.body, given.impulse, given.place, first ? given.loss : 0.0);
+      if (given.other >= 0) give(given.other, -given.impulse, given.place, first ? 0.0 : given.loss);
+    });
   }
   /// Call when all impulses are booked: gives the bodies the velocity that contact left them.
   void finish() {
@@ -87,6 +104,19 @@ class FreeBodies {
     BodyMomentum impulse;
     double loss = 0.0;  ///< [J]
   };
+  /// Books an impulse on the body, and what was lost there [J].
+  void give(int body, const Vec3& impulse, const Vec3& place, double loss) {
+    if (LinkMotion* link = bodies_[body]->link_motion()) {
+      link->take(impulse, place, loss);
+      return;
+    }
+    const FreeMotion* free = bodies_[body]->free_motion();
+    if (free == nullptr) return;
+    Taken& taken = taken_[body];
+    taken.impulse.linear += impulse;
+    taken.impulse.angular += (place - free->centre()).cross(impulse);
+    taken.loss += loss;
+  }
   template <class Visit>
   void each(Visit&& visit) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -98,6 +128,7 @@ class FreeBodies {
   Vec3 gravity_;  ///< [m/s^2]
   std::vector<Taken> taken_;
   std::vector<Articulation*> robots_;
+  BodyContact meeting_;
 };
 
 }  // namespace mpm

@@ -24,9 +24,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm/contact/body_contact.hpp"
 #include "mpm/contact/conjugate_sweeps.hpp"
 #include "mpm/contact/contact_point.hpp"
 #include "mpm/contact/edge_cover.hpp"
+#include "mpm/contact/row_impulse.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/rigid/contact_law.hpp"
 #include "mpm/rigid/dynamic_motion.hpp"
@@ -58,12 +60,7 @@ class PointSolver {
     Vec3 place;                       ///< world [m]
     Vec3 start = Vec3::Zero();        ///< velocity that the point takes from nodes before the impulses [m/s]
   };
-  enum class Pass {
-    step,      ///< impulses >= 0, friction: decides which points are held
-    strain,    ///< held points follow the surface, others as in step
-    held,      ///< held points follow the surface
-    increment  ///< the same for a velocity increment
-  };
+  using Pass = ContactPass;
   using Member = NodalField Grid::*;
 
   /// `fields` and `bodies` must outlive this object. `sharp`: whether points see that faces end (edge_cover.hpp).
@@ -99,8 +96,9 @@ class PointSolver {
   void add_impulses(Member to, double factor);
   /// Adds the compliance of free bodies to that of their points. Call after FreeBodies::predict().
   void find_compliance_with_bodies();
-  /// `free`: whether some body is free, so that its velocity is an unknown too.
-  void solve(Pass pass, bool free);
+  /// `free`: whether some body is free, so that its velocity is an unknown too. `bodies`: where bodies meet each other
+  /// in this step, which is solved with the points; null without.
+  void solve(Pass pass, bool free, BodyContact* bodies = nullptr);
   /// Threads that took part in the last solution; 0 before the first one that had a point.
   int solving_threads() const { return solving_threads_; }
 
@@ -129,12 +127,6 @@ class PointSolver {
   struct Cluster {
     int field, block, colour, first, end;
   };
-  /// Largest changes of a sweep.
-  struct Progress {
-    double largest = 0.0;  ///< change of a velocity [m/s]
-    double scale = 0.0;    ///< the largest velocity that an impulse gives its point [m/s]
-  };
-
   /// Number of threads that pays for this number of points.
   int threads_for(int points) const;
   void find_weights(const std::vector<ContactPoint>& found);
@@ -147,11 +139,11 @@ class PointSolver {
   template <Pass Kind, bool Free>
   double relax(Point& point);
   template <Pass Kind, bool Free>
-  void relax(const Cluster& cluster, bool back, Progress& progress);
+  void relax(const Cluster& cluster, bool back, SweepProgress& progress);
   template <Pass Kind>
   void sweep_prescribed();
   template <Pass Kind>
-  void sweep_free();
+  void sweep_free(BodyContact* bodies);
   /// True if the last sweep changed no body's force and torque by more than a part of their sums of magnitudes.
   bool steady();
 

@@ -36,6 +36,7 @@ struct ToolRowSettings {
   double least_density = 0.0;  ///< density of the soil, at the start [kg/m^3]
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
+  BodyContactSettings meeting;  ///< of tools with each other and with walls
 };
 
 /// The tool on which soil presses most.
@@ -68,7 +69,7 @@ class ToolRows {
   }
   Row* rows(int block) { return rows_.data() + begin_[block]; }
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
-  /// Solves the rows of free bodies, whose velocities change with each.
+  /// Solves the rows of free bodies, whose velocities change with each, and what they do to each other.
   void meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes);
   /// Looks whether the joints of robots act as assumed (FreeBodies::settle()).
   bool settle();
@@ -94,6 +95,7 @@ class ToolRows {
   void serialise(StateArchive& archive);
 
  private:
+  void meet_each_other();
   /// The same of one body, and the particles of a set in an owner's block.
   bool put_out(const RigidBody& body, ParticleSet& set, Grid& grid, int owner) const;
   /// Finds the pressure to resolve.
@@ -142,6 +144,7 @@ class ToolRows {
   ToolRowSettings settings_;
   std::vector<std::vector<SurfaceSample>> samples_;  ///< samples of each body
   FreeBodies free_;
+  BodyContact* meeting_ = nullptr;  ///< where tools meet each other in this step
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
   std::vector<Row> rows_;

@@ -86,6 +86,8 @@ class LinkMotion final : public DynamicMotion {
 
   void push(const Vec3& impulse, const Vec3& point) override;
   Mat3 compliance_at(const Vec3& point) const override;
+  /// Change of velocity of a world point of this link by a unit impulse there on another link of the same robot.
+  Mat3 compliance_by(const LinkMotion& other, const Vec3& point) const;
   /// Sum of the impulses pushed, about the origin.
   const Vec6& pushed() const { return pushed_; }
   void set_pushed(const Vec6& pushed) { pushed_ = pushed; }

@@ -30,6 +30,13 @@ struct SurfacePoint {
   Vec3 normal = Vec3::UnitZ();  ///< outward unit normal at the nearest point of the surface
 };
 
+/// A ball in a body that reaches its surface; of a corner or an edge one without a radius.
+struct TouchPoint {
+  Vec3 place = Vec3::Zero();   ///< body frame [m]
+  double radius = 0.0;         ///< [m]
+  Vec3 inward = Vec3::Zero();  ///< from a corner or an edge into the body; a unit vector, or zero
+};
+
 class Surface {
  public:
   virtual ~Surface() = default;
@@ -44,6 +51,9 @@ class Surface {
   /// Triangles for display (markers), body frame; three vertices each, counter-clockwise seen from outside. A body
   /// without end along an axis is drawn as long as it is wide.
   virtual std::vector<std::array<Vec3, 3>> triangles() const = 0;
+  /// Balls that make up the body where it touches flat or hollow surfaces: one of a sphere, those along its axis of a
+  /// capsule. Empty for others.
+  virtual std::vector<TouchPoint> balls() const { return {}; }
   /// Moments of the enclosed solid; along an axis without end it is `across` [m] long, centred. Empty when they are not
   /// known.
   virtual std::optional<SolidMoments> moments(double /*across*/) const { return {}; }

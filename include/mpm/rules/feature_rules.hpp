@@ -21,6 +21,7 @@ enum class Feature {
   average_dilatation,
   average_stress,
   body_laws,
+  collisions,
   conditions,
   contact_at_nodes,
   contact_at_points,

@@ -60,6 +60,9 @@ void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinitio
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
 /// `free` of a rigid body, after its shape and motion
 void read_free(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
+std::optional<CollideDefinition> read_collide(const Value& value);
+/// Refuses exceptions that name no rigid body, once all are read.
+void check_collide(const Map& root, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a `polygon`, in planar scenes
 std::unique_ptr<Surface> read_polygon(const Value& value, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a `height_field`, after `grid`

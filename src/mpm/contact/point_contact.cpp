@@ -8,9 +8,7 @@ namespace {
 constexpr double kTouching = 1e-2;   ///< cells: a point this near counts to the area
 constexpr double kWeakening = 1e-3;  ///< cells of sliding over which friction falls from that at rest
 constexpr double kAtRest = 1e-6;     ///< cells: what slides by less in a step is at rest, and what is this near adheres
-constexpr double kPushOut = 2e-4;    ///< cells a step at most that a point inside a body is moved out
-constexpr double kPushOutPart = 0.1;  ///< part of its depth
-constexpr int kJointRounds = 8;       ///< solutions at most, after joints have begun to slide, stop or give way
+constexpr int kJointRounds = 8;      ///< solutions at most, after joints have begun to slide, stop or give way
 
 Vec3 along_surface(const Vec3& velocity, const Vec3& normal) { return velocity - velocity.dot(normal) * normal; }
 
@@ -30,7 +28,7 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
       gravity_(settings.gravity),
       search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads, settings.ranks),
       solver_(fields, surfaces_, settings.geometry, settings.shape, settings.sharp_edges, settings.threads),
-      free_(bodies_, settings.gravity) {
+      free_(bodies_, settings.gravity, settings.meeting) {
   for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
 }
 
@@ -40,6 +38,7 @@ void PointContact::momentum_gathered(StepContext& context) {
       return "'" + bodies_[i / sets_.size()]->name() + "' with '" + sets_[i % sets_.size()].name + "'";
     });
   }
+  free_.find_meetings(context.dt);
   const std::vector<ContactPoint>& found = search_.find(context.dt);
   solver_.connect(found);
   contacts_.clear();
@@ -79,7 +78,7 @@ PointContact::Contact PointContact::recall(const ContactPoint& found, const Poin
     if (!(law.adhesion > 0.0)) contact.start += std::max(-contact.start.dot(point.normal), 0.0) * point.normal;
   }
   point.motion = free_.motion(found.body);
-  point.allowed = contact.gap > 0.0 ? -contact.gap / dt : std::min(-kPushOutPart * contact.gap, kPushOut * cell_) / dt;
+  point.allowed = allowed_velocity(contact.gap, cell_, dt);
   point.adhesion = held || contact.gap <= kAtRest * cell_ ? law.adhesion * found.area * dt : 0.0;
   const double weakened = std::min(contact.slid / (kWeakening * cell_), 1.0);
   point.friction = law.at_rest() + weakened * (law.coefficient - law.at_rest());
@@ -105,7 +104,7 @@ void PointContact::before_strain(StepContext& context) {
     free_.begin_trial();
     solver_.find_compliance_with_bodies();
   }
-  solver_.solve(Pass::strain, free);
+  solver_.solve(Pass::strain, free, free ? free_.begin_meeting() : nullptr);
   if (free) free_.end_trial();
   solver_.store(&Grid::velocity);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -138,12 +137,14 @@ void PointContact::forces_gathered(StepContext& context) {
 void PointContact::momentum_updated(StepContext& context) {
   memory_.clear();
   const bool free = free_.any();
+  BodyContact* meeting = nullptr;
   if (free) {
     free_.predict(context.dt);
     solver_.find_compliance_with_bodies();
+    meeting = free_.begin_meeting();
   }
   std::vector<PointSolver::Point>& points = solver_.points();
-  if (!contacts_.empty()) {
+  if (!contacts_.empty() || meeting != nullptr) {
     solver_.load(&Grid::velocity);
     begin_impulses();
     if (with_pairs_) {
@@ -151,10 +152,10 @@ void PointContact::momentum_updated(StepContext& context) {
     } else {
       solver_.push_all();
     }
-    solver_.solve(Pass::step, free);
+    solver_.solve(Pass::step, free, meeting);
     for (int round = 0; free && round < kJointRounds && free_.settle(); ++round) {
       solver_.find_compliance_with_bodies();
-      solver_.solve(Pass::step, free);
+      solver_.solve(Pass::step, free, free_.same_meeting());
     }
     solver_.store(&Grid::velocity);
     solver_.store(&Grid::force, 1.0 / context.dt);
@@ -190,6 +191,7 @@ void PointContact::momentum_updated(StepContext& context) {
                  point.hold});
   }
   memory_.close();
+  if (meeting != nullptr) free_.take_meetings(true);
   if (free) free_.finish();
 }
 
@@ -206,8 +208,12 @@ void PointContact::increment_found(StepContext&) {
   const bool free = free_.any();
   solver_.load(&Grid::increment);
   clear_impulses();
-  if (free) free_.begin_increment();
-  solver_.solve(Pass::increment, free);
+  BodyContact* meeting = nullptr;
+  if (free) {
+    free_.begin_increment();
+    meeting = free_.begin_meeting();
+  }
+  solver_.solve(Pass::increment, free, meeting);
   solver_.store(&Grid::increment);
   if (free) free_.end_increment();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -215,6 +221,7 @@ void PointContact::increment_found(StepContext&) {
     if (point.motion != nullptr) point.velocity = point.motion->velocity_at(point.place);
     give(i, point.velocity, Vec3::Zero());
   }
+  if (meeting != nullptr) free_.take_meetings(false);
   if (free) free_.finish();
   // The work of the increments' impulses at edges is done at the velocities of the step.
   solver_.load(&Grid::velocity);

@@ -106,9 +106,7 @@ void PointSolver::find_compliance_with_bodies() {
 
 template <PointSolver::Pass Kind, bool Free>
 double PointSolver::relax(Point& point) {
-  constexpr bool kDecides = Kind == Pass::step;
-  const bool bound = !kDecides && point.hold != Hold::free;
-  if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
+  if (Kind != Pass::step && Kind != Pass::strain && !is_bound<Kind>(point)) return 0.0;
   Vec3 slip = velocity_at(point);
   double compliance = point.compliance, compliance_along = point.compliance;
   if constexpr (Free) {
@@ -120,26 +118,7 @@ double PointSolver::relax(Point& point) {
   } else if (Kind != Pass::increment) {
     slip -= point.velocity;
   }
-  const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
-  double normal = pressed + ((bound ? 0.0 : point.allowed) - approach) / compliance;
-  Vec3 along = point.impulse - pressed * point.normal;
-  const Vec3 sticking = along - (slip - approach * point.normal) / compliance_along;
-  if (bound) {
-    if (point.hold == Hold::stick) along = sticking;
-  } else {
-    normal = std::max(normal, -point.adhesion);
-    along = sticking;
-    const double length = along.norm(), most = point.friction * std::max(normal, 0.0) + point.adhesion;
-    Hold hold = normal > -point.adhesion ? Hold::stick : Hold::free;
-    if (hold == Hold::free) {
-      along.setZero();
-    } else if (!point.sticks && length > most) {
-      along *= most / length;
-      hold = Hold::slide;
-    }
-    if (kDecides) point.hold = hold;
-  }
-  const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
+  const Vec3 impulse = next_impulse<Kind>(point, slip, compliance, compliance_along), change = impulse - point.impulse;
   if (change.isZero(0.0)) return 0.0;
   point.impulse = impulse;
   push<Free>(point, change);
@@ -147,7 +126,7 @@ double PointSolver::relax(Point& point) {
 }
 
 template <PointSolver::Pass Kind, bool Free>
-void PointSolver::relax(const Cluster& cluster, bool back, Progress& progress) {
+void PointSolver::relax(const Cluster& cluster, bool back, SweepProgress& progress) {
   const auto visit = [&](Point& point) {
     progress.largest = std::max(progress.largest, relax<Kind, Free>(point));
     progress.scale = std::max(progress.scale, point.impulse.norm() * (Free ? point.with_body[0] : point.compliance));
@@ -165,11 +144,11 @@ void PointSolver::sweep_prescribed() {
   const bool far = any_at_edge_ && traits_of(shape_).surface_degree > 1;
   const int threads = far ? 1 : threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
-  Progress all[2];  // progress of this sweep, and of the next
+  SweepProgress all[2];  // progress of this sweep, and of the next
   for_team("contact: sweeps over points", threads, [&](const Team& team) {
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       const bool back = sweep % 2 != 0;
-      Progress own;
+      SweepProgress own;
       for (int c = 0; c < colours; ++c) {
         const int colour = back ? colours - 1 - c : c;
         const int first = colour_begin_[colour], end = colour_begin_[colour + 1];
@@ -197,26 +176,32 @@ void PointSolver::sweep_prescribed() {
 }
 
 template <PointSolver::Pass Kind>
-void PointSolver::sweep_free() {
+void PointSolver::sweep_free(BodyContact* bodies) {
   // Strain needs no more accuracy than before a prescribed body: its impulses are not given.
   constexpr bool kTrial = Kind == Pass::strain;
   constexpr int kMost = kTrial ? kSweeps : kSweepsFree;
   constexpr double kEnough = kTrial ? kTolerance : kToleranceFree;
   solving_threads_ = 1;
   ConjugateSweeps<Point> conjugate(sweeps_);
+  if (bodies != nullptr) bodies->begin_sweeps();
   const int count = static_cast<int>(clusters_.size());
   int steady_for = 0;
   for (int sweep = 0; sweep < kMost; ++sweep) {
     conjugate.begin(points_);
     const bool back = sweep % 2 != 0;
-    Progress progress;
+    SweepProgress progress, between;  // of points, and of rows between bodies
     for (int i = 0; i < count; ++i) relax<Kind, true>(clusters_[back ? count - 1 - i : i], back, progress);
-    steady_for = !kTrial && steady() ? steady_for + 1 : 0;
-    if (progress.largest <= kEnough * progress.scale || steady_for == kSteadySweeps || sweep + 1 == kMost) break;
-    conjugate.go_on(points_, [&](Point& point, const Vec3& change) {
-      point.impulse += change;
-      push<true>(point, change);
+    if (bodies != nullptr) between = bodies->sweep(Kind, back);
+    const bool bodies_done = between.largest <= kEnough * between.scale;
+    steady_for = !kTrial && bodies_done && steady() ? steady_for + 1 : 0;
+    const bool done = (progress.largest <= kEnough * progress.scale || steady_for == kSteadySweeps) && bodies_done;
+    if (done || sweep + 1 == kMost) break;
+    const double change = conjugate.change(points_) + (bodies != nullptr ? bodies->change() : 0.0);
+    conjugate.go_on(points_, change, [&](Point& point, const Vec3& more) {
+      point.impulse += more;
+      push<true>(point, more);
     });
+    if (bodies != nullptr) bodies->go_on(change);
   }
 }
 
@@ -237,17 +222,17 @@ bool PointSolver::steady() {
   });
 }
 
-void PointSolver::solve(Pass pass, bool free) {
-  if (points_.empty()) return;
+void PointSolver::solve(Pass pass, bool free, BodyContact* bodies) {
+  if (points_.empty() && bodies == nullptr) return;
   switch (pass) {
     case Pass::step:
-      return free ? sweep_free<Pass::step>() : sweep_prescribed<Pass::step>();
+      return free ? sweep_free<Pass::step>(bodies) : sweep_prescribed<Pass::step>();
     case Pass::strain:
-      return free ? sweep_free<Pass::strain>() : sweep_prescribed<Pass::strain>();
+      return free ? sweep_free<Pass::strain>(bodies) : sweep_prescribed<Pass::strain>();
     case Pass::held:
       return sweep_prescribed<Pass::held>();
     case Pass::increment:
-      return free ? sweep_free<Pass::increment>() : sweep_prescribed<Pass::increment>();
+      return free ? sweep_free<Pass::increment>(bodies) : sweep_prescribed<Pass::increment>();
   }
 }
 

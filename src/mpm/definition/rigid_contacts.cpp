@@ -45,4 +45,24 @@ std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definitio
   return laws;
 }
 
+BodyContactSettings body_contact_settings(const SimulationDefinition& definition) {
+  BodyContactSettings settings;
+  settings.geometry = definition.geometry;
+  settings.cell = definition.smallest_cell();
+  for (std::size_t w = 0; w < definition.walls.size(); ++w) {
+    const WallKind kind = definition.walls[w].kind;
+    if (kind != WallKind::fixed && kind != WallKind::slip && kind != WallKind::frictional) continue;
+    const int axis = static_cast<int>(w / 2);
+    const bool upper = w % 2 != 0;
+    BodyWall wall;
+    wall.name = kWallNames[w];
+    wall.normal = (upper ? -1.0 : 1.0) * Vec3::Unit(axis);
+    wall.place = upper ? -definition.grid.max[axis] : definition.grid.min[axis];
+    if (kind == WallKind::slip) wall.friction = 0.0;
+    if (kind == WallKind::frictional) wall.friction = definition.walls[w].friction.coefficient;
+    settings.walls.push_back(wall);
+  }
+  return settings;
+}
+
 }  // namespace mpm

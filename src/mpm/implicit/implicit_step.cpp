@@ -42,7 +42,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
         soil_grid_(grid_, settings.walls, axisymmetric(settings.geometry), settings.threads),
         cells_(std::move(parts.bodies), soil_grid_, settings.threads),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
-               {settings.geometry, settings.across, cells_.least_density(), settings.threads, settings.gravity}),
+               {settings.geometry, settings.across, cells_.least_density(), settings.threads, settings.gravity,
+                settings.meeting}),
         walls_(settings.walls, soil_grid_),
         held_(grid_) {
     double volume = soil_grid_.rings() ? kTurn * grid_.layout.cell(0) : settings.across;

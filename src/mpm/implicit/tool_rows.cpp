@@ -17,6 +17,9 @@ constexpr double kPresent = 0.2;             ///< part of the soil's density, fr
 
 constexpr double kAnswers = 1e-6;  ///< part of a row's largest answer to an impulse, that along its normal at the least
 
+constexpr int kSweepsBetween = 40;       ///< of tools with each other, at most, in each pass over their rows
+constexpr double kEnoughBetween = 1e-5;  ///< change of velocity over the largest one, at which they end
+
 constexpr int kRoomForHeld = 4;  ///< parts of a point's impulse that walls take, of all points in the mean
 
 template <class T>
@@ -38,7 +41,7 @@ ToolRows<T>::ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> la
       laws_(std::move(laws)),
       grid_(grid),
       settings_(settings),
-      free_(bodies_, settings.gravity) {
+      free_(bodies_, settings.gravity, settings.meeting) {
   const double cell = grid.grid().layout.smallest_cell();
   for (const RigidBody* body : bodies_) {
     samples_.push_back(sample_surface(body->surface(), settings.geometry, {kApart * cell, kClearance * cell}));
@@ -201,7 +204,9 @@ bool ToolRows<T>::make(int body, int sample, const std::vector<Node>& nodes, con
 template <class T>
 void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
   const int blocks = grid_.grid().blocks.size();
+  free_.find_meetings(dt);
   free_.predict(dt);
+  meeting_ = free_.begin_meeting();
   std::size_t first = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const FrictionLaw law = laws_[b].in_step(start, dt, [&] { return "'" + bodies_[b]->name() + "'"; });
@@ -261,6 +266,17 @@ void ToolRows<T>::meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<
       table.touch(row, nodes.data());
       motion.push(before - vector_of(row.impulse), places_[i].at);
     }
+    if (meeting_ != nullptr) meet_each_other();
+  }
+}
+
+template <class T>
+void ToolRows<T>::meet_each_other() {
+  meeting_->begin_sweeps();
+  for (int sweep = 0; sweep < kSweepsBetween; ++sweep) {
+    const SweepProgress progress = meeting_->sweep(ContactPass::step, sweep % 2 != 0);
+    if (progress.largest <= kEnoughBetween * progress.scale || sweep + 1 == kSweepsBetween) break;
+    meeting_->go_on(meeting_->change());
   }
 }
 
@@ -281,6 +297,7 @@ void ToolRows<T>::extrapolate_free(double factor) {
 template <class T>
 bool ToolRows<T>::settle() {
   if (!free_.settle()) return false;
+  free_.same_meeting();
   for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
     const Mat3 compliance = free_.motion(places_[i].body)->compliance_at(places_[i].at);
     rows_[i].own = static_cast<T>(places_[i].own + compliance.cwiseAbs().rowwise().sum().maxCoeff());
@@ -375,6 +392,7 @@ void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
     const double mean = areas_[b] > 0.0 ? press_[b] / (areas_[b] * dt) : 0.0;
     if (mean > most_.mean) most_ = {mean, static_cast<std::int32_t>(b)};
   }
+  if (meeting_ != nullptr) free_.take_meetings(true);
   free_.finish();
 }
 

@@ -116,10 +116,11 @@ RigidParticleSettings particle_settings(RunParts& parts, const std::vector<Conta
 /// Contact at points, with all of these bodies at once. `laws`: of each against each set.
 void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, std::vector<ContactLaw> laws) {
   const SimulationDefinition& definition = parts.definition;
-  PointContactSettings settings{
-      definition.geometry, definition.method.shape, definition.across(), parts.threads,
-      definition.gravity,  has_pairs(definition),   parts.heat,          definition.contact.sharp_edges,
-      parts.ranks};
+  PointContactSettings settings{definition.geometry, definition.method.shape,
+                                definition.across(), parts.threads,
+                                definition.gravity,  has_pairs(definition),
+                                parts.heat,          definition.contact.sharp_edges,
+                                parts.ranks,         body_contact_settings(definition)};
   parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
 }
 

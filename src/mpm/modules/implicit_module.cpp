@@ -38,6 +38,7 @@ void add_implicit(RunParts& parts) {
   settings.walls = definition.walls;
   settings.threads = parts.threads;
   settings.gravity = definition.gravity;
+  settings.meeting = body_contact_settings(definition);
   settings.loads =
       !definition.body_forces.empty() || !definition.particle_forces.empty() || !definition.tractions.empty();
   settings.isa = parts.isa;

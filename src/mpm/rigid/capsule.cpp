@@ -46,6 +46,13 @@ class CapsuleSurface final : public Surface {
 
   double thickness() const override { return 2.0 * radius_; }
 
+  std::vector<TouchPoint> balls() const override {
+    const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * half_ / radius_)));
+    std::vector<TouchPoint> balls;
+    for (int k = 0; k <= parts; ++k) balls.push_back({(2.0 * k / parts - 1.0) * half_ * Vec3::Unit(axis_), radius_});
+    return balls;
+  }
+
   std::vector<std::array<Vec3, 3>> triangles() const override {
     // Parallels from one pole to the other; the equator is there twice, at both ends of the straight part.
     const int last = 2 * kEndParallels + 1;

@@ -54,6 +54,11 @@ class CylinderSurface final : public Surface {
 
   double thickness() const override { return 2.0 * std::min(radius_, half_); }
 
+  std::vector<TouchPoint> balls() const override {
+    if (std::isfinite(half_)) return {};
+    return {{Vec3::Zero(), radius_}};  // a disc of a planar scene
+  }
+
   std::vector<std::array<Vec3, 3>> triangles() const override {
     const double half = std::isfinite(half_) ? half_ : radius_;  // without end: drawn as long as it is wide
     const int u = (axis_ + 1) % 3;

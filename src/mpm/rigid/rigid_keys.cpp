@@ -39,6 +39,18 @@ const KeyTable<FreeDefinition>& free_keys() {
   return keys;
 }
 
+const KeyTable<CollideDefinition>& collide_keys() {
+  using Collide = CollideDefinition;
+  static const auto keys =
+      KeyTable<Collide>("rigid_bodies.collide")
+          .rows({number("friction", &Collide::friction, kPlain, kNotNegative,
+                        {"", "Coulomb friction against other bodies and walls; of two bodies the smaller one", "0.3"}),
+                 other<Collide>("except", "list of rigid bodies",
+                                {"none", "bodies that it passes through; a link is `robot/link`", "[rover/chassis]"})})
+          .advise({{"restitution", "bodies do not rebound; leave it out"}});
+  return keys;
+}
+
 const KeyTable<MotionLimits>& limit_keys() {
   using Limits = MotionLimits;
   constexpr Range kLimit = or_none(kPositive);

@@ -35,6 +35,8 @@ class SphereSurface final : public Surface {
 
   double thickness() const override { return 2.0 * radius_; }
 
+  std::vector<TouchPoint> balls() const override { return {{Vec3::Zero(), radius_}}; }
+
   std::vector<std::array<Vec3, 3>> triangles() const override {
     const auto vertex = [&](int parallel, int meridian) {
       const double theta = kPi * parallel / kSphereParallels;

@@ -12,9 +12,15 @@ const KeyTable<RobotDefinition>& robot_keys() {
                                "package://my_robot/urdf/digger.urdf"}),
                  other<Robot>("base", "`fixed`, `free` or a map",
                               {"`fixed`, at the origin", "how the first link is held", "free"}),
-                 other<Robot>("links", "map of links",
-                              {"none", "links that meet the material, with `friction` as a rigid body has it",
-                               "{bucket: {friction: 0.4}}"}),
+                 other<Robot>(
+                     "links", "map of links",
+                     {"none", "links that meet the material, with `friction` and `collide` as a rigid body has them",
+                      "{bucket: {friction: 0.4}}"}),
+                 other<Robot>("collide", "as of a rigid body",
+                              {"`false`",
+                               "whether those links meet rigid bodies that collide, walls and each other; a link may "
+                               "have its own",
+                               "true"}),
                  other<Robot>("joints", "map of joints",
                               {"without a drive", "drives of joints", "{boom: {drive: velocity}}"}),
                  other<Robot>(

@@ -31,6 +31,11 @@ std::string free_fault(const SimulationDefinition&, const RigidBodyDefinition& b
   return {};
 }
 
+std::string collide_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
+  if (!body.collide || !axisymmetric(definition.geometry)) return {};
+  return "collide: bodies about an axis do not meet each other; leave it out, or make the scene solid";
+}
+
 // Contact with rigid particles has one law for each velocity field.
 std::string field_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
   if (!body.particles) return {};
@@ -52,7 +57,7 @@ std::string field_fault(const SimulationDefinition& definition, const RigidBodyD
 }  // namespace
 
 std::string rigid_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  for (const auto rule : {divides_fault, radial_fault, free_fault, field_fault}) {
+  for (const auto rule : {divides_fault, radial_fault, free_fault, collide_fault, field_fault}) {
     if (std::string fault = rule(definition, body); !fault.empty()) return fault;
   }
   return {};

@@ -50,6 +50,11 @@ const KeyTable<RigidBodyDefinition>& rigid_body_keys() {
                             "directions in which contact, gravity and a wrench move the body: "
                             "[free_bodies.md](free_bodies.md); not together with `drive`",
                             "{density: 500, axes: [x, z]}"}),
+               other<Body>("collide", "`true`, `false` or a map",
+                           {"`false`",
+                            "whether the body meets other rigid bodies that collide, and walls: "
+                            "[collisions](free_bodies.md#collisions)",
+                            "true"}),
                other<Body>("friction", "number ≥ 0, or `stick`",
                            {"`contact.friction`",
                             "Coulomb friction against the material; `stick`: no sliding, no parting", "0.5"}),

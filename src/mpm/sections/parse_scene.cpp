@@ -123,6 +123,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_bodies(root, scene);
   const FrictionLaw friction = read_rigid_bodies(root, scene);
   read_robots(root, friction, scene);
+  check_collide(root, scene.definition);
   read_contact_pairs(root, scene);
   read_boundaries(root, scene);
   read_loads(root, scene);

@@ -262,6 +262,7 @@ FrictionLaw read_rigid_bodies(const Map& root, Scene& scene) {
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     smooth = smooth || (!own_friction && !names_friction(root));
     read_free(map, scene.definition, body);
+    if (const auto collide = map.find("collide")) body.collide = read_collide(*collide);
     if (const auto divides = map.find("divides")) read_divides(*divides, scene, body);
     const auto reach = map.find("reach");
     if (reach && scene.definition.contact.method == ContactMethod::points)

@@ -173,6 +173,32 @@ void check_mimics(const Map& map, const RobotDefinition& robot) {
   }
 }
 
+/// Joints that move on the way between two links.
+int joints_between(const RobotModel& model, int one, int two) {
+  int joints = 0;
+  while (one != two) {
+    int& later = one > two ? one : two;  // parents come before their children
+    const ModelJoint& joint = model.joints[static_cast<std::size_t>(later) - 1];
+    if (joint.moves()) ++joints;
+    later = joint.parent;
+  }
+  return joints;
+}
+
+/// Links that one joint holds together overlap there, and never collide.
+void except_neighbours(const RobotDefinition& robot, std::vector<RigidBodyDefinition>& bodies) {
+  for (const LinkContact& one : robot.contacts) {
+    const auto body =
+        std::find_if(bodies.begin(), bodies.end(), [&](const auto& other) { return other.name == one.body; });
+    if (!body->collide) continue;
+    for (const LinkContact& two : robot.contacts) {
+      if (two.link < one.link && joints_between(robot.model, one.link, two.link) <= 1) {
+        body->collide->except.push_back(two.body);
+      }
+    }
+  }
+}
+
 /// Links that meet the material, as rigid bodies of the scene named after the robot and the link.
 void read_links(const Map& map, const std::string& path, const FrictionLaw& friction, Scene& scene,
                 RobotDefinition& robot) {
@@ -186,7 +212,7 @@ void read_links(const Map& map, const std::string& path, const FrictionLaw& fric
       value.fail(fmt::format("the robot has no link '{}'; {}", name, suggest(name, names_of(robot.model.links))));
     }
     check_name(value, name);
-    const Map own(value, {"friction"}, {{"pose", "a link is where its joints put it"}});
+    const Map own(value, {"friction", "collide"}, {{"pose", "a link is where its joints put it"}});
     RigidBodyDefinition body;
     body.name = robot.name + "/" + name;
     const std::string in_files = robot.name + "_" + name;
@@ -205,10 +231,13 @@ void read_links(const Map& map, const std::string& path, const FrictionLaw& fric
     body.pose = poses[static_cast<std::size_t>(link)];
     const auto own_friction = own.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
+    const auto own_collide = own.find("collide"), collide = own_collide ? own_collide : map.find("collide");
+    if (collide) body.collide = read_collide(*collide);
     robot.contacts.push_back({link, body.name});
     scene.definition.rigid_bodies.push_back(std::move(body));
     scene.commands.emplace_back();
   }
+  except_neighbours(robot, scene.definition.rigid_bodies);
 }
 
 void read_sensors(const Map& map, RobotDefinition& robot) {

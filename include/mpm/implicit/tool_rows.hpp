@@ -36,7 +36,7 @@ struct ToolRowSettings {
   double least_density = 0.0;  ///< density of the soil, at the start [kg/m^3]
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
-  BodyContactSettings meeting;  ///< of tools with each other and with walls
+  BodyContactSettings meeting;  ///< contact of tools with each other and with walls
 };
 
 /// The tool on which soil presses most.
@@ -144,7 +144,7 @@ class ToolRows {
   ToolRowSettings settings_;
   std::vector<std::vector<SurfaceSample>> samples_;  ///< samples of each body
   FreeBodies free_;
-  BodyContact* meeting_ = nullptr;  ///< where tools meet each other in this step
+  BodyContact* meeting_ = nullptr;  ///< meeting of tools with each other in this step; null where none may meet
   std::vector<ContactLedger> ledgers_;
   std::vector<Kept> kept_;
   std::vector<Row> rows_;

@@ -43,7 +43,7 @@ struct RigidBodyDefinition {
   std::vector<std::string> divides;
   /// The mass of a free body, and which of its velocities are free. Without it all velocities are prescribed.
   std::optional<FreeDefinition> free;
-  /// How it meets other rigid bodies that have this, and walls. Without it, it passes through them.
+  /// Contact with other rigid bodies that have this, and walls. Without it, it passes through them.
   std::optional<CollideDefinition> collide;
   /// True if the body is filled with particles; contact is then found from volumes and volume gradients at nodes
   /// (contact/rigid_particle_contact.hpp) instead of the surface.

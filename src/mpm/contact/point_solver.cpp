@@ -189,7 +189,7 @@ void PointSolver::sweep_free(BodyContact* bodies) {
   for (int sweep = 0; sweep < kMost; ++sweep) {
     conjugate.begin(points_);
     const bool back = sweep % 2 != 0;
-    SweepProgress progress, between;  // of points, and of rows between bodies
+    SweepProgress progress, between;  // progress of points, and of rows between bodies
     for (int i = 0; i < count; ++i) relax<Kind, true>(clusters_[back ? count - 1 - i : i], back, progress);
     if (bodies != nullptr) between = bodies->sweep(Kind, back);
     const bool bodies_done = between.largest <= kEnough * between.scale;

@@ -17,7 +17,7 @@ constexpr double kPresent = 0.2;             ///< part of the soil's density, fr
 
 constexpr double kAnswers = 1e-6;  ///< part of a row's largest answer to an impulse, that along its normal at the least
 
-constexpr int kSweepsBetween = 40;       ///< of tools with each other, at most, in each pass over their rows
+constexpr int kSweepsBetween = 40;       ///< most sweeps over the meeting of tools in each pass over their rows
 constexpr double kEnoughBetween = 1e-5;  ///< change of velocity over the largest one, at which they end
 
 constexpr int kRoomForHeld = 4;  ///< parts of a point's impulse that walls take, of all points in the mean

@@ -8,6 +8,7 @@
 contact_<body>.png            force, impulse, torque and velocity of a rigid body over time
 energies.png                  energies by kind
 audit.png                     impulses by source and the audit's residual, time step, smallest det F
+joints_<robot>.png            position, velocity and effort of a robot's joints over time
 global_quantities.png         the quantities that the scene asks for, a panel for each unit
 cracks.png                    J, K_I and K_II of each crack tip and the length of each crack over time
 crack_path_<crack>.png        the way of a crack that grew
@@ -30,6 +31,7 @@ import plot_animation  # noqa: E402
 import plot_compare  # noqa: E402
 import plot_cracks  # noqa: E402
 import plot_particles  # noqa: E402
+import plot_robots  # noqa: E402
 import plot_series  # noqa: E402
 import plot_style  # noqa: E402
 import plot_tables  # noqa: E402
@@ -52,6 +54,7 @@ def draw(options):
     run, cracks = runs[0], plot_cracks.Cracks(folders[0])
     for body in run.bodies:
         plot_series.plot_contact(run, body, plots)
+    plot_robots.plot_robots(run, plots)
     plot_series.plot_energies(run, plots)
     plot_series.plot_audit(run, plots)
     plot_series.plot_global(run, plots)

@@ -80,6 +80,11 @@ def _about(folder):
         raise TableError(f"{path}: not what bag_report --csv wrote; write the folder again") from error
 
 
+def _table_if_there(folder, file):
+    path = os.path.join(folder, file)
+    return Table(path) if os.path.exists(path) else None
+
+
 def _is_number(text):
     try:
         float(text)
@@ -100,8 +105,8 @@ class Run:
         self.forces = Table(os.path.join(folder, "contact_forces.csv"))
         self.poses = Table(os.path.join(folder, "bodies.csv"))
         self.state = Table(os.path.join(folder, "solver_state.csv"))
-        path = os.path.join(folder, "global_quantities.csv")
-        self.global_quantities = Table(path) if os.path.exists(path) else None
+        self.global_quantities = _table_if_there(folder, "global_quantities.csv")
+        self.joints = _table_if_there(folder, "joints.csv")
         ending = " interval"
         self.bodies = [name[: -len(ending)] for name in self.forces.names() if name.endswith(ending)]
         self.snapshots = self._snapshots()

@@ -59,8 +59,9 @@ std::string table_of(const std::vector<Quantity<Report, Message>>& quantities, c
 
 TEST(Quantities, AreWhatThePageSays) {
   const std::string page = text_of("doc/analysis.md");
-  for (const std::string& table : {table_of(contact_quantities(), "B "), table_of(pair_quantities(), "P "),
-                                   table_of(tip_quantities(), ""), table_of(state_quantities(), "")}) {
+  for (const std::string& table :
+       {table_of(contact_quantities(), "B "), table_of(pair_quantities(), "P "), table_of(tip_quantities(), ""),
+        table_of(robot_quantities(), "R "), table_of(state_quantities(), "")}) {
     EXPECT_NE(page.find(table), std::string::npos) << "doc/analysis.md does not have these rows:\n" << table;
   }
 }
@@ -92,6 +93,7 @@ TEST(Quantities, HaveTheUnitsOfTheMessages) {
   expect_units(contact_quantities());
   expect_units(pair_quantities());
   expect_units(tip_quantities());
+  expect_units(robot_quantities());
   expect_units(state_quantities());
 }
 
@@ -111,6 +113,7 @@ TEST(Quantities, HaveNamesOfTheirOwn) {
   expect_names_of_their_own(contact_quantities());
   expect_names_of_their_own(pair_quantities());
   expect_names_of_their_own(tip_quantities());
+  expect_names_of_their_own(robot_quantities());
   expect_names_of_their_own(state_quantities());
   // By these two the statistics and the averages know the force and its interval.
   EXPECT_EQ(contact_quantities().front().name, "force");

@@ -11,11 +11,12 @@ namespace mpm {
 
 struct JointReport {
   std::string name;
-  double position = 0.0;  ///< [m], [rad]
-  double velocity = 0.0;  ///< [m/s], [rad/s]
-  double effort = 0.0;    ///< effort of the drive in the last step [N], [N m]
-  double impulse = 0.0;   ///< impulse of the drive since the start of the run [N s], [N m s]
-  double target = 0.0;    ///< target of the drive, by its kind
+  bool prismatic = false;  ///< in metres and newtons; else in radians and newton metres
+  double position = 0.0;   ///< [m], [rad]
+  double velocity = 0.0;   ///< [m/s], [rad/s]
+  double effort = 0.0;     ///< effort of the drive in the last step [N], [N m]
+  double impulse = 0.0;    ///< impulse of the drive since the start of the run [N s], [N m s]
+  double target = 0.0;     ///< target of the drive, by its kind
   JointDrive drive = JointDrive::effort;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <mpm_ros/JointCommand.h>
-#include <mpm_ros/RobotState.h>
 #include <ros/time.h>
 #include <sensor_msgs/JointState.h>
 #include <trajectory_msgs/JointTrajectory.h>
@@ -47,9 +46,5 @@ void apply_again(const JointOrder& order, mpm::Simulation& simulation);
 mpm_ros::JointCommand to_message(const JointOrder& order, const std::string& robot, const Stamps& stamps);
 /// The inverse. @throws BagError when the scene has no such robot
 JointOrder from_message(const mpm_ros::JointCommand& message, const mpm::Simulation& simulation);
-
-/// Robots at the end of an interval, with their mean efforts in it; `start`: at its begin. [s]
-std::vector<mpm_ros::RobotState> to_message(const std::vector<mpm::RobotReport>& now,
-                                            const std::vector<mpm::RobotReport>& start, double interval);
 
 }  // namespace mpm_ros

@@ -1,6 +1,7 @@
 // The tables of a run, the same whether run_scene writes them as it goes or bag_report from a bag:
 // contact_forces.csv, contact_pairs.csv, bodies.csv, solver_state.csv, commands.csv, particles.csv (the index of the
-// snapshots) and particles_NNNN.csv. doc/analysis.md lists the columns. Each table's columns are set by its first row.
+// snapshots) and particles_NNNN.csv; robot_csv.hpp and terrain_csv.hpp have the others. doc/analysis.md lists the
+// columns. Each table's columns are set by its first row.
 #pragma once
 
 #include <mpm_ros/ContactForce.h>

@@ -9,6 +9,7 @@
 #include <mpm_ros/GlobalQuantities.h>
 #include <mpm_ros/HeightMap.h>
 #include <mpm_ros/JointCommand.h>
+#include <mpm_ros/RobotStates.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <mpm_ros/Volumes.h>
@@ -44,6 +45,7 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::PointCloud2&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::JointState&) {}
+  virtual void put(const std::string&, const ros::Time&, const RobotStates&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
   virtual void put(const std::string&, const ros::Time&, const JointCommand&) {}
   virtual void put(const std::string&, const ros::Time&, const HeightMap&) {}

@@ -1,16 +1,18 @@
-// The lists of what a run reports of a contact, of a pair of bodies, of a crack's tip and of its state. A line is a
-// number; their order is that of the CSV columns.
+// The lists of what a run reports of a contact, of a pair of bodies, of a crack's tip, of a robot and of its state. A
+// line is a number; their order is that of the CSV columns.
 #pragma once
 
 #include <mpm_ros/ContactForce.h>
 #include <mpm_ros/ContactPair.h>
 #include <mpm_ros/CrackTip.h>
+#include <mpm_ros/RobotState.h>
 #include <mpm_ros/SolverState.h>
 
 #include <string>
 #include <vector>
 
 #include "mpm/definition/report.hpp"
+#include "mpm/robot/robot_report.hpp"
 #include "mpm_ros/message/quantity.hpp"
 
 namespace mpm_ros {
@@ -18,6 +20,7 @@ namespace mpm_ros {
 using ContactQuantity = Quantity<mpm::ContactReport, ContactForce>;
 using PairQuantity = Quantity<mpm::PairReport, ContactPair>;
 using TipQuantity = Quantity<mpm::CrackTipReport, CrackTip>;
+using RobotQuantity = Quantity<mpm::RobotReport, RobotState>;
 using StateQuantity = Quantity<mpm::SolverState, SolverState>;
 
 /// Quantities of a rigid body's contact with the material; the first is the mean force.
@@ -26,6 +29,8 @@ const std::vector<ContactQuantity>& contact_quantities();
 const std::vector<PairQuantity>& pair_quantities();
 /// Quantities of a crack's tip as it was last looked at.
 const std::vector<TipQuantity>& tip_quantities();
+/// Energies of a robot; joints and sensors have names of their own and stand beside these.
+const std::vector<RobotQuantity>& robot_quantities();
 /// Quantities of the solver; impulses have names of their own and stand beside these.
 const std::vector<StateQuantity>& state_quantities();
 
@@ -45,5 +50,6 @@ struct EnergyFigure {
 };
 /// Those of the list, then those that modules bring by names of their own.
 std::vector<EnergyFigure> energies_of(const SolverState& state);
+std::vector<EnergyFigure> energies_of(const RobotState& robot);
 
 }  // namespace mpm_ros

@@ -9,7 +9,7 @@ namespace mpm_ros::topics {
 constexpr const char* kParticles = "particles";
 constexpr const char* kContactForces = "contact_forces";
 constexpr const char* kBodies = "bodies";
-constexpr const char* kRobots = "robots";
+constexpr const char* kRobots = "robots";             ///< joints, sensors and energies of all
 constexpr const char* kJointStates = "joint_states";  ///< joints of each robot
 constexpr const char* kJointCommand = "joint_command";
 constexpr const char* kJointTrajectory = "joint_trajectory";

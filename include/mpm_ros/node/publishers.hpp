@@ -47,6 +47,7 @@ class Publishers : public MessageSink {
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::JointState& m) override {
     at(topic).publish(m);
   }
+  void put(const std::string& topic, const ros::Time&, const RobotStates& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const tf2_msgs::TFMessage& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::PointCloud2& m) override {
     at(topic).publish(m);

@@ -1,41 +1,39 @@
-// Messages of robots: joints as robot_state_publisher takes them, wrenches of sensors at joints.
+// Outputs of a run's robots: joints as robot_state_publisher takes them, wrenches of sensors, and one message with all
+// of it. A scene without robots has none.
 #pragma once
 
-#include <geometry_msgs/Wrench.h>
-#include <sensor_msgs/JointState.h>
-
-#include <string>
+#include <cstdint>
 #include <vector>
 
 #include "mpm/math/state_archive.hpp"
 #include "mpm/robot/robot_report.hpp"
+#include "mpm_ros/record/output_sinks.hpp"
 
 namespace mpm_ros {
 
-/// A joint with its child's wrench, in the child's axes: its frame is that link.
-struct SensorMessage {
-  std::string topic, frame;
-  geometry_msgs::Wrench wrench;
-};
-
 class RobotOutputs {
  public:
-  /// A robot's joints, without a header. Efforts of drives are means since the last call of take(), so that over any
-  /// time they sum up to the impulse that was applied.
-  static sensor_msgs::JointState joints(const mpm::RobotReport& now, const mpm::RobotReport& last, double interval);
-  static std::vector<SensorMessage> sensors(const mpm::RobotReport& now, const mpm::RobotReport& last, double interval);
+  /// Both must outlive it.
+  RobotOutputs(const mpm::Simulation& simulation, OutputSinks& sinks) : simulation_(simulation), sinks_(sinks) {}
 
-  /// Reports of now and of the last call, and the time between [s].
-  struct Interval {
-    std::vector<mpm::RobotReport> now, last;
-    double length = 0.0;
-  };
-  Interval take(std::vector<mpm::RobotReport> now, double time);
+  /// Writes them with means since the last call, or since the start.
+  void write();
+  /// Writes them as they stand, with efforts and wrenches of the last step: where a run goes on from a checkpoint,
+  /// whose means are under way, and where it failed between two sync points.
+  void write_present();
+  /// [ns] of the last call of write(), -1 before the first.
+  std::int64_t written_at() const { return written_at_; }
+  /// For checkpoints: impulses at the last call of write().
   void serialise(mpm::StateArchive& archive);
 
  private:
-  std::vector<mpm::RobotReport> last_;
-  double time_ = 0.0;  // [s]
+  void put(const std::vector<mpm::RobotReport>& now, const std::vector<mpm::RobotReport>& start, double interval);
+
+  const mpm::Simulation& simulation_;
+  OutputSinks& sinks_;
+  std::vector<mpm::RobotReport> last_;  ///< at the last call of write(); empty before the first
+  double time_ = 0.0;                   ///< time of it [s]
+  std::int64_t written_at_ = -1;
 };
 
 }  // namespace mpm_ros

@@ -1,4 +1,5 @@
 // Outputs of a run and their times: turns the simulation's state at sync points into messages and hands them to sinks.
+// Contact, cracks, robots, volumes and the ground have writers of their own; here is when each of them writes.
 // The node and run_scene share it, so that a bag is the same whichever of them wrote it.
 //
 //   RunOutputs outputs(simulation, stamps, options);
@@ -13,8 +14,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,13 +25,15 @@
 #include "mpm_ros/command/joint_command.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/message/local_frame.hpp"
-#include "mpm_ros/message/markers.hpp"
 #include "mpm_ros/message/message_sink.hpp"
 #include "mpm_ros/message/particle_cloud.hpp"
 #include "mpm_ros/message/stamps.hpp"
-#include "mpm_ros/message/wrench_filter.hpp"
-#include "mpm_ros/record/ground_record.hpp"
+#include "mpm_ros/record/contact_outputs.hpp"
+#include "mpm_ros/record/crack_outputs.hpp"
+#include "mpm_ros/record/ground_outputs.hpp"
+#include "mpm_ros/record/output_sinks.hpp"
 #include "mpm_ros/record/robot_outputs.hpp"
+#include "mpm_ros/record/volume_outputs.hpp"
 
 namespace mpm_ros {
 
@@ -66,7 +67,7 @@ class RunOutputs {
   RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, OutputOptions options);
 
   /// Sinks are kept by reference. Add them before begin().
-  void add(MessageSink& sink) { sinks_.push_back(&sink); }
+  void add(MessageSink& sink) { sinks_.add(sink); }
   /// Static content, and the state at the start.
   void begin(const RunInfo& info);
   /// The same for a run that goes on from a checkpoint: averages that are under way go on.
@@ -89,10 +90,10 @@ class RunOutputs {
   /// The solver state as it was written last.
   const SolverState& solver_state() const { return state_; }
   /// Contacts over the last sync period.
-  const Contacts& contacts() const { return contacts_; }
-  ContactForces contact_forces(const Contacts& contacts) const;
+  const Contacts& contacts() const { return contacts_.last(); }
+  ContactForces contact_forces(const Contacts& contacts) const { return contacts_.message(contacts); }
   BodyStates body_states() const;
-  ros::Time stamp() const;
+  ros::Time stamp() const { return sinks_.stamp(); }
   /// Frame of clouds and markers.
   const LocalFrame& local_frame() const { return local_; }
   /// After a checkpoint was loaded. @throws mpm::CheckpointError, which names it, where the particles do not remember
@@ -100,36 +101,17 @@ class RunOutputs {
   void check_fields(const std::string& checkpoint) const;
 
  private:
-  template <typename Message>
-  void put(const std::string& topic, const Message& message);
-  /// To those sinks alone that want it, and are `meant`.
-  template <typename Message, typename Meant>
-  void put_to(const std::string& topic, const Message& message, const Meant& meant);
   /// To the sinks that take those of their own rank, or to the others.
   void write_particles(bool own);
-  /// True if a sink of this rank wants it.
-  bool wanted(const std::string& topic) const;
-  /// The same of any rank: where all ranks have to read what is written.
-  bool wanted_anywhere(const std::string& topic) const { return simulation_.on_any_rank(wanted(topic)); }
-  /// Throws on all ranks if a sink has failed on one. @throws BagError on the others
-  void end_writing();
-  void read_contacts();
   /// Takes the steps that a budget cut in the last sync period.
   void read_cuts();
   /// Writes what does not change: places of frames, shapes.
   void write_static();
-  void write_contacts();
   void write_bodies();
   void write_state(bool with_hash, double real_time_factor);
   void write_particles();
-  void write_cracks();
-  void write_robots();
   void write_global();
-  void write_volumes();
-  /// `all`: whether or not the ground has changed.
-  void write_ground(bool all);
   bool particles_due() const;
-  std_msgs::Header header(const std::string& frame) const;
 
   mpm::Simulation& simulation_;
   const Stamps& stamps_;
@@ -138,20 +120,16 @@ class RunOutputs {
   const std::int64_t particle_first_;   // [ns]
   const std::int64_t wrench_period_;    // [ns]
   const std::int64_t global_period_;    // [ns]
-  std::vector<MessageSink*> sinks_;
-  std::vector<std::string> wrench_topics_;
-  std::vector<std::string> filtered_topics_;
-  std::vector<WrenchFilter> filters_;  // filters of each body; empty: none
-  std::vector<mpm::Wrench> filtered_;  // body axes
-  RobotOutputs robots_;
+  OutputSinks sinks_;
   const LocalFrame local_;
   ParticleCloud cloud_;
   mpm::GlobalQuantities global_;
   GlobalQuantities global_message_;
-  std::unique_ptr<GroundRecord> ground_;  // null where the scene asks for no maps
-  ForceMarkers force_markers_;
-  Contacts contacts_;
-  ContactAverage average_;
+  ContactOutputs contacts_;
+  CrackOutputs cracks_;
+  RobotOutputs robots_;
+  VolumeOutputs volumes_;
+  GroundOutputs ground_;
   SolverState state_;
   std::vector<mpm::CutStep> cuts_;  // since the last solver state
   std::uint64_t applied_ = 0;       // commands
@@ -161,13 +139,8 @@ class RunOutputs {
   std::uint64_t overruns_ = 0;
   std::int64_t particles_at_ = -1;  // [ns] when they were written last
   bool global_kept_ = false;        // its means go on from a checkpoint
-  std::int64_t read_at_ = -1;       // [ns] when contacts were read last
-  std::int64_t contacts_at_ = -1;   // [ns] the same
   std::int64_t global_at_ = -1;     // [ns] the same
-  std::int64_t cracks_at_ = -1;     // [ns] the same
-  std::int64_t ground_at_ = -1;     // [ns] the same
   bool finished_ = false;
-  std::exception_ptr failed_sink_;  // over several ranks: why, until all know
 };
 
 }  // namespace mpm_ros

@@ -26,6 +26,7 @@ class CsvSink : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Cracks& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const RobotStates& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;

@@ -11,6 +11,7 @@
 #include <mpm_ros/GlobalQuantities.h>
 #include <mpm_ros/HeightMap.h>
 #include <mpm_ros/JointCommand.h>
+#include <mpm_ros/RobotStates.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <rosbag/bag.h>
@@ -47,6 +48,8 @@ class RunVisitor {
   virtual void global_quantities(std::int64_t time, const GlobalQuantities& message) { unused(time, message); }
   virtual void cracks(std::int64_t time, const Cracks& message) { unused(time, message); }
   virtual void terrain(std::int64_t time, const HeightMap& message) { unused(time, message); }
+  /// Lists of a robot are as long as that of its joints.
+  virtual void robots(std::int64_t time, const RobotStates& message) { unused(time, message); }
   virtual void command(std::int64_t time, const Command& message) { unused(time, message); }
   virtual void joint_command(std::int64_t time, const JointCommand& message) { unused(time, message); }
   /// A message on /clock, where that was recorded too.
@@ -111,6 +114,7 @@ class RunBag {
                void (RunVisitor::*receive)(std::int64_t, const Message&)) const;
   /// Clouds as they lie in the world.
   void hand_on_cloud(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors) const;
+  void hand_on_robots(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors) const;
   void find_frames();
 
   std::string path_;

@@ -35,6 +35,7 @@ class RunChecks : public RunVisitor {
   void solver_state(std::int64_t time, const SolverState& message) override;
   void command(std::int64_t time, const Command& message) override;
   void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
+  void robots(std::int64_t time, const RobotStates& message) override;
   void clock(std::int64_t time) override;
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mpm_ros/csv/csv_tables.hpp"
+#include "mpm_ros/csv/robot_csv.hpp"
 #include "mpm_ros/csv/terrain_csv.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 
@@ -25,6 +26,7 @@ class CsvExport : public RunVisitor {
   void solver_state(std::int64_t time, const SolverState& message) override;
   void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
   void cracks(std::int64_t time, const Cracks& message) override;
+  void robots(std::int64_t time, const RobotStates& message) override;
   void command(std::int64_t time, const Command& message) override;
   void markers(const visualization_msgs::MarkerArray& message) override;
   void terrain(std::int64_t time, const HeightMap& message) override;
@@ -38,6 +40,7 @@ class CsvExport : public RunVisitor {
   SolverStateCsv solver_state_;
   GlobalQuantitiesCsv global_quantities_;
   CracksCsv cracks_;
+  RobotsCsv robots_;
   CommandsCsv commands_;
   TerrainCsv terrain_;
 };

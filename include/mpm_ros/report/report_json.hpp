@@ -16,4 +16,7 @@ nlohmann::ordered_json report_json(const RecordedRun& run);
 /// One run as above; several as {"schema": …, "runs": [ … ]}.
 nlohmann::ordered_json report_json(const std::vector<RecordedRun>& runs);
 
+/// Its `size`, `time` [s] and `vector`.
+nlohmann::ordered_json json_of(const Extreme& value);
+
 }  // namespace mpm_ros

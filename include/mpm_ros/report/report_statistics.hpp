@@ -11,18 +11,12 @@
 #include <vector>
 
 #include "mpm_ros/message/quantity.hpp"
+#include "mpm_ros/report/extreme.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/report_messages.hpp"
+#include "mpm_ros/report/robot_statistics.hpp"
 
 namespace mpm_ros {
-
-/// The largest vector met, and when.
-struct Extreme {
-  double norm = 0.0;
-  mpm::Vec3 vector = mpm::Vec3::Zero();
-  std::int64_t time = 0;  ///< [ns] since the start
-  void offer(const mpm::Vec3& candidate, std::int64_t when);
-};
 
 /// One number of a contact over the run. A scalar is stored as a vector along x.
 struct NumberStatistics {
@@ -78,12 +72,14 @@ class RunStatistics : public RunVisitor {
   void bodies(std::int64_t time, const BodyStates& message) override;
   void solver_state(std::int64_t time, const SolverState& message) override;
   void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
+  void robots(std::int64_t time, const RobotStates& message) override;
   void command(std::int64_t time, const Command& message) override;
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
 
   const std::vector<BodyStatistics>& body_statistics() const { return bodies_; }
   const std::vector<ContactStatistics>& pair_statistics() const { return pairs_; }
   const std::vector<GlobalStatistics>& global_statistics() const { return global_; }
+  const std::vector<RobotStatistics>& robot_statistics() const { return robots_; }
   /// By body and kind.
   const std::map<std::pair<std::string, std::string>, CommandStatistics>& commands() const { return commands_; }
   /// The first and the last state; nothing before the first message.
@@ -100,6 +96,7 @@ class RunStatistics : public RunVisitor {
   std::vector<BodyStatistics> bodies_;    ///< in the order of the messages
   std::vector<ContactStatistics> pairs_;  ///< the same
   std::vector<GlobalStatistics> global_;  ///< the same
+  std::vector<RobotStatistics> robots_;   ///< the same
   std::map<std::pair<std::string, std::string>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;
   SolverState last_state_;

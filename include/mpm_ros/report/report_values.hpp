@@ -6,6 +6,7 @@
 #include <mpm_ros/ContactForces.h>
 #include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
+#include <mpm_ros/RobotStates.h>
 #include <mpm_ros/SolverState.h>
 
 #include <cstdint>
@@ -30,5 +31,6 @@ std::vector<ComparedValue> values_of(const SolverState& message);
 std::vector<ComparedValue> values_of(const Command& message);
 std::vector<ComparedValue> values_of(const GlobalQuantities& message);
 std::vector<ComparedValue> values_of(const Cracks& message);
+std::vector<ComparedValue> values_of(const RobotStates& message);
 
 }  // namespace mpm_ros

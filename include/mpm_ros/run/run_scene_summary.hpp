@@ -40,6 +40,7 @@ struct RunSummary {
   std::uint64_t state_hash = 0;   ///< none when it was cut short
   std::uint64_t peak_memory = 0;  ///< [byte] of the whole process; over several ranks of the largest
   Contacts contacts;              ///< impulses and energies since the start
+  std::vector<mpm::RobotReport> robots;
   std::vector<std::pair<std::string, double>> metrics;
 
   double seconds() const { return mpm::nearest_seconds(state.time); }

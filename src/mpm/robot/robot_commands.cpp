@@ -111,6 +111,7 @@ RobotReport Robot::report() const {
     const auto joint = static_cast<std::size_t>(of.freedom - base);
     JointReport one;
     one.name = model.name;
+    one.prismatic = model.kind == ModelJoint::Kind::prismatic;
     one.position = of.factor * positions_[static_cast<Eigen::Index>(joint)] + of.offset;
     one.velocity = of.factor * velocities_[of.freedom];
     if (!model.mimic) {

@@ -171,24 +171,4 @@ JointOrder from_message(const mpm_ros::JointCommand& message, const mpm::Simulat
   return order;
 }
 
-std::vector<mpm_ros::RobotState> to_message(const std::vector<mpm::RobotReport>& now,
-                                            const std::vector<mpm::RobotReport>& start, double interval) {
-  std::vector<mpm_ros::RobotState> states;
-  for (std::size_t r = 0; r < now.size(); ++r) {
-    mpm_ros::RobotState state;
-    state.name = now[r].name;
-    state.base = to_message(now[r].base);
-    state.base_twist = to_message(now[r].base_twist);
-    for (std::size_t j = 0; j < now[r].joints.size(); ++j) {
-      const mpm::JointReport& joint = now[r].joints[j];
-      state.joints.push_back(joint.name);
-      state.position.push_back(joint.position);
-      state.velocity.push_back(joint.velocity);
-      state.effort.push_back(interval > 0.0 ? (joint.impulse - start[r].joints[j].impulse) / interval : 0.0);
-    }
-    states.push_back(std::move(state));
-  }
-  return states;
-}
-
 }  // namespace mpm_ros

@@ -118,6 +118,30 @@ StateQuantity energy(const char* name, Over over, const char* key, Field<Access>
 
 }  // namespace
 
+const std::vector<RobotQuantity>& robot_quantities() {
+  using Q = RobotQuantity;
+  const auto energy = [](const char* key) { return std::vector<Figure>{{Of::ends, key, key}}; };
+  static const std::vector<Q> list = {
+      Q("energy kinetic", "J", Over::now, FIELD(energies.kinetic), FIELD(energy_kinetic), "energy kinetic", "",
+        energy("kinetic")),
+      Q("energy potential", "J", Over::now, FIELD(energies.potential), FIELD(energy_potential), "energy potential",
+        "-sum m g.x", energy("potential")),
+      Q("energy drive", "J", Over::start, FIELD(energies.drive), FIELD(energy_drive), "energy drive",
+        "work of the drives, and of what moves the base", energy("drive")),
+      Q("energy damping", "J", Over::start, FIELD(energies.damping), FIELD(energy_damping), "energy damping",
+        "work of damping in joints", energy("damping")),
+      Q("energy friction", "J", Over::start, FIELD(energies.friction), FIELD(energy_friction), "energy friction",
+        "work of friction in joints", energy("friction")),
+      Q("energy limit", "J", Over::start, FIELD(energies.limit), FIELD(energy_limit), "energy limit",
+        "work of the joints' limits", energy("limit")),
+      Q("energy contact", "J", Over::start, FIELD(energies.contact), FIELD(energy_contact), "energy contact",
+        "work of the material on the links", energy("contact")),
+      Q("energy loss", "J", Over::start, FIELD(energies.loss), FIELD(energy_loss), "energy loss",
+        "lost where links and material met, sliding left out", energy("loss")),
+  };
+  return list;
+}
+
 const std::vector<StateQuantity>& state_quantities() {
   using Q = StateQuantity;
   static const std::vector<Q> list = {
@@ -183,13 +207,25 @@ const std::vector<StateQuantity>& state_quantities() {
   return list;
 }
 
-std::vector<EnergyFigure> energies_of(const SolverState& state) {
+namespace {
+
+template <class Report, class Message>
+std::vector<EnergyFigure> figures_of(const Message& message, const std::vector<Quantity<Report, Message>>& quantities) {
   std::vector<EnergyFigure> energies;
-  for (const StateQuantity& one : state_quantities()) {
+  for (const Quantity<Report, Message>& one : quantities) {
     for (const Figure& figure : one.figures) {
-      energies.push_back({figure.key, figure.heading, std::get<double>(one.of_message(state))});
+      energies.push_back({figure.key, figure.heading, std::get<double>(one.of_message(message))});
     }
   }
+  return energies;
+}
+
+}  // namespace
+
+std::vector<EnergyFigure> energies_of(const RobotState& robot) { return figures_of(robot, robot_quantities()); }
+
+std::vector<EnergyFigure> energies_of(const SolverState& state) {
+  std::vector<EnergyFigure> energies = figures_of(state, state_quantities());
   for (const NamedValue& value : others(state, state_quantities())) {
     if (value.unit == "J" && value.value.size() == 1) energies.push_back({value.name, value.name, value.value[0]});
   }

@@ -50,6 +50,8 @@ void Publishers::add_cracks() {
 void Publishers::add_robot(const mpm::RobotDefinition& robot) {
   ros::Publisher& commands = publishers_[topics::kJointCommands];
   if (!commands) commands = node_.advertise<JointCommand>(topics::kJointCommands, kSmall);
+  ros::Publisher& all = publishers_[topics::kRobots];
+  if (!all) all = node_.advertise<RobotStates>(topics::kRobots, kSmall);
   const std::string joints = topics::of_robot(robot.name, topics::kJointStates);
   ros::Publisher& states = publishers_[joints];
   if (!states) states = node_.advertise<sensor_msgs::JointState>(joints, kSmall);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mpm_ros/message/contact_average.hpp"
+#include "mpm_ros/message/robot_messages.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 
 namespace mpm_ros {

@@ -257,6 +257,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Cr
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::JointState& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const RobotStates& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) {
   if (topic != topics::kTfStatic) return write(topic, stamp, message);
   if (!bag_) return;

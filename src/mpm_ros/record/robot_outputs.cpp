@@ -2,49 +2,57 @@
 
 #include <utility>
 
-#include "mpm_ros/message/conversions.hpp"
+#include "mpm/math/nanoseconds.hpp"
+#include "mpm_ros/message/robot_messages.hpp"
 #include "mpm_ros/message/topics.hpp"
 
 namespace mpm_ros {
 
-sensor_msgs::JointState RobotOutputs::joints(const mpm::RobotReport& now, const mpm::RobotReport& last,
-                                             double interval) {
-  sensor_msgs::JointState message;
-  for (std::size_t j = 0; j < now.joints.size(); ++j) {
-    const mpm::JointReport& joint = now.joints[j];
-    message.name.push_back(joint.name);
-    message.position.push_back(joint.position);
-    message.velocity.push_back(joint.velocity);
-    message.effort.push_back(interval > 0.0 ? (joint.impulse - last.joints[j].impulse) / interval : 0.0);
-  }
-  return message;
-}
-
-std::vector<SensorMessage> RobotOutputs::sensors(const mpm::RobotReport& now, const mpm::RobotReport& last,
-                                                 double interval) {
-  std::vector<SensorMessage> messages;
-  for (std::size_t s = 0; s < now.sensors.size(); ++s) {
-    const mpm::SensorReport& sensor = now.sensors[s];
-    mpm::Wrench mean;
-    if (interval > 0.0) {
-      mean.force = (sensor.impulse.force - last.sensors[s].impulse.force) / interval;
-      mean.torque = (sensor.impulse.torque - last.sensors[s].impulse.torque) / interval;
-    }
-    messages.push_back(
-        {topics::of_robot(now.name, "sensors/" + sensor.joint + "/wrench"), sensor.link, to_message(mean)});
-  }
-  return messages;
-}
-
-RobotOutputs::Interval RobotOutputs::take(std::vector<mpm::RobotReport> now, double time) {
+void RobotOutputs::write() {
+  written_at_ = simulation_.time();
+  if (simulation_.definition().robots.empty()) return;
+  std::vector<mpm::RobotReport> now = simulation_.robots();
   if (last_.empty()) last_ = now;
-  Interval interval{std::move(now), std::move(last_), time - time_};
-  last_ = interval.now;
+  const double time = mpm::seconds_of(simulation_.time());
+  put(now, last_, time - time_);
+  last_ = std::move(now);
   time_ = time;
-  return interval;
+}
+
+void RobotOutputs::write_present() {
+  if (simulation_.definition().robots.empty()) return;
+  const std::vector<mpm::RobotReport> now = simulation_.robots();
+  put(now, now, 0.0);
+}
+
+void RobotOutputs::put(const std::vector<mpm::RobotReport>& now, const std::vector<mpm::RobotReport>& start,
+                       double interval) {
+  RobotStates message;
+  message.header = sinks_.header();
+  message.robots = to_message(now, start, interval);
+  for (const RobotState& robot : message.robots) {
+    const std::string joints = topics::of_robot(robot.name, topics::kJointStates);
+    if (sinks_.wanted(joints)) {
+      sensor_msgs::JointState state = joint_state_of(robot);
+      state.header = sinks_.header({});
+      sinks_.put(joints, state);
+    }
+    for (const JointWrench& sensor : robot.sensors) {
+      const std::string topic = topics::of_robot(robot.name, "sensors/" + sensor.joint + "/wrench");
+      if (!sinks_.wanted(topic)) continue;
+      geometry_msgs::WrenchStamped wrench;
+      wrench.header = sinks_.header(sensor.link);
+      wrench.wrench = sensor.wrench;
+      sinks_.put(topic, wrench);
+    }
+  }
+  if (sinks_.wanted(topics::kRobots)) sinks_.put(topics::kRobots, message);
 }
 
 void RobotOutputs::serialise(mpm::StateArchive& archive) {
+  if (simulation_.definition().robots.empty()) return;
+  const mpm::StateArchive::Group group(archive, "robots");
+  if (archive.reading()) last_ = simulation_.robots();
   archive.value("time", time_);
   std::vector<double> impulses;
   for (const mpm::RobotReport& robot : last_) {

@@ -14,8 +14,9 @@ void CsvSink::close() {
 
 bool CsvSink::wants(const std::string& topic) const {
   // The rest repeats these in another form, or is for displays.
-  for (const char* table : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
-                            topics::kCracks, topics::kParticles, topics::kCommands, topics::kTerrain}) {
+  for (const char* table :
+       {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities, topics::kCracks,
+        topics::kRobots, topics::kParticles, topics::kCommands, topics::kTerrain}) {
     if (topic == table) return true;
   }
   return topic == topics::kMarkers || topic == topics::kTfStatic;
@@ -35,6 +36,9 @@ void CsvSink::put(const std::string&, const ros::Time& stamp, const GlobalQuanti
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const Cracks& message) {
   tables_.cracks(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const RobotStates& message) {
+  tables_.robots(stamps_.time_of(stamp), message);
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const Command& message) {
   tables_.command(stamps_.time_of(stamp), message);

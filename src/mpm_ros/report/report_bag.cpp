@@ -17,6 +17,7 @@
 #include "mpm_ros/message/bag_damage.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/local_frame.hpp"
+#include "mpm_ros/message/robot_messages.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/report/reindex.hpp"
 
@@ -271,11 +272,20 @@ void RunBag::hand_on_cloud(const rosbag::MessageInstance& instance, const std::v
   for (RunVisitor* visitor : visitors) visitor->particles(time, cloud);
 }
 
+void RunBag::hand_on_robots(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors) const {
+  const auto message = take<RobotStates>(instance, path_);
+  for (const RobotState& robot : message->robots) {
+    if (const std::string problem = problem_of(robot); !problem.empty())
+      throw BagError(fmt::format("{}: {}: {}", path_, instance.getTopic(), problem));
+  }
+  for (RunVisitor* visitor : visitors) visitor->robots(stamps_.time_of(message->header.stamp), *message);
+}
+
 void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& told) {
   std::vector<std::string> names;
-  for (const char* name :
-       {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities, topics::kCracks,
-        topics::kCommands, topics::kJointCommands, topics::kParticles, topics::kTerrain, topics::kMarkers}) {
+  for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
+                           topics::kCracks, topics::kRobots, topics::kCommands, topics::kJointCommands,
+                           topics::kParticles, topics::kTerrain, topics::kMarkers}) {
     names.push_back(topic(name));
   }
   names.emplace_back(topics::kClock);
@@ -302,6 +312,8 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& told)
         hand_on(instance, visitors, &RunVisitor::global_quantities);
       } else if (name == topics::kCracks) {
         hand_on(instance, visitors, &RunVisitor::cracks);
+      } else if (name == topics::kRobots) {
+        hand_on_robots(instance, visitors);
       } else if (name == topics::kCommands) {
         hand_on(instance, visitors, &RunVisitor::command);
       } else if (name == topics::kJointCommands) {

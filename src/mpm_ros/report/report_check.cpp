@@ -11,6 +11,7 @@
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
+#include "mpm_ros/report/report_values.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -274,6 +275,13 @@ void RunChecks::global_quantities(std::int64_t time, const GlobalQuantities& mes
   ++spacing_["global_quantities"].count;
 }
 
+void RunChecks::robots(std::int64_t time, const RobotStates& message) {
+  for (const ComparedValue& value : values_of(message)) {
+    if (!std::isfinite(value.number)) fail("robots", time, value.field + " is not finite");
+  }
+  ++spacing_["robots"].count;
+}
+
 void RunChecks::clock(std::int64_t time) {
   if (clocks_++ > 0 && time < last_clock_) {
     fail("clock", time, fmt::format("/clock goes back by {} s", mpm::nearest_seconds(last_clock_ - time)));
@@ -327,6 +335,7 @@ std::vector<CheckResult> RunChecks::results() const {
   }
   if (clocks_ == 0) not_made.emplace("clock", "/clock is not in the bag");
   if (spacing_.count("global_quantities") == 0) not_made.emplace("global", "the scene asks for no global quantities");
+  if (spacing_.count("robots") == 0) not_made.emplace("robots", "the scene has no robots");
 
   const auto spacing = spacing_.find("solver_state");
   Spacing states;
@@ -348,6 +357,7 @@ std::vector<CheckResult> RunChecks::results() const {
       {"global", "all values finite"},
       {"volume", fmt::format("smallest det F {:.4g}", min_j_)},
       {"bodies", "poses and twists finite, quaternions of unit length"},
+      {"robots", "joints, sensors and energies finite"},
       {"impulse", fmt::format("forces add up to the impulses, within {:.2g} of them", worst_impulse_)},
       {"reaction",
        fmt::format("impulses on bodies and on the material are opposite, within {:.2g} of the momentum exchanged",

@@ -29,6 +29,7 @@ CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
       solver_state_(folder),
       global_quantities_(folder),
       cracks_(folder),
+      robots_(folder),
       commands_(folder),
       terrain_(folder) {}
 
@@ -53,6 +54,10 @@ void CsvExport::global_quantities(std::int64_t time, const GlobalQuantities& mes
 
 void CsvExport::cracks(std::int64_t time, const Cracks& message) { cracks_.add(mpm::nearest_seconds(time), message); }
 
+void CsvExport::robots(std::int64_t time, const RobotStates& message) {
+  robots_.add(mpm::nearest_seconds(time), message.robots);
+}
+
 void CsvExport::command(std::int64_t time, const Command& message) { commands_.add(command_row_of(time, message)); }
 
 void CsvExport::markers(const visualization_msgs::MarkerArray& message) {
@@ -75,6 +80,7 @@ void CsvExport::close() {
   solver_state_.close();
   global_quantities_.close();
   cracks_.close();
+  robots_.close();
   commands_.close();
   terrain_.close();
 }

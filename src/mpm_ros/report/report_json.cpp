@@ -6,6 +6,7 @@
 #include "mpm_ros/message/audit_limit.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
+#include "mpm_ros/report/report_robots.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json array(const mpm::Vec3& vector) { return {vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0}; }  // no -0
-
-Json extreme(const Extreme& value) {
-  return {{"size", value.norm}, {"time", mpm::nearest_seconds(value.time)}, {"vector", array(value.vector)}};
-}
 
 /// First and last time, or null.
 Json span(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
@@ -31,7 +28,7 @@ Json contact_json(const ContactStatistics& known) {
     const auto plain = [&number](const mpm::Vec3& value) { return number.vector ? array(value) : Json(value.x()); };
     for (const Figure& figure : number.figures) {
       if (figure.key.empty()) continue;
-      if (figure.of == Figure::Of::peak) json[figure.key] = extreme(number.peak);
+      if (figure.of == Figure::Of::peak) json[figure.key] = json_of(number.peak);
       if (figure.of == Figure::Of::largest) json[figure.key] = number.peak.norm;
       if (figure.of == Figure::Of::mean) json[figure.key] = plain(known.mean(number));
       if (figure.of == Figure::Of::end) json[figure.key] = plain(number.end);
@@ -79,6 +76,10 @@ Json audit_json(const RecordedRun& run) {
 
 }  // namespace
 
+Json json_of(const Extreme& value) {
+  return {{"size", value.norm}, {"time", mpm::nearest_seconds(value.time)}, {"vector", array(value.vector)}};
+}
+
 Json report_json(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
   const SolverState& last = statistics.last_state();
@@ -115,6 +116,7 @@ Json report_json(const RecordedRun& run) {
   for (const ContactStatistics& pair : statistics.pair_statistics()) {
     json["contact_pairs"][pair.name] = contact_json(pair);
   };
+  json["robots"] = robots_json(statistics.robot_statistics());
   json["global_quantities"] = Json::object();
   for (const GlobalStatistics& one : statistics.global_statistics()) {
     json["global_quantities"][one.name] = {

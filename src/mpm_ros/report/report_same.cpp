@@ -201,6 +201,7 @@ bool same_runs(RunBag& a, RunBag& b, std::optional<double> tolerance, std::ostre
     add(topics::kSolverState, compare_topic<SolverState>(a, b, topics::kSolverState, to_the_bit));
     add(topics::kGlobalQuantities, compare_topic<GlobalQuantities>(a, b, topics::kGlobalQuantities, to_the_bit));
     add(topics::kCracks, compare_topic<Cracks>(a, b, topics::kCracks, to_the_bit));
+    add(topics::kRobots, compare_topic<RobotStates>(a, b, topics::kRobots, to_the_bit));
     add(topics::kParticles, compare_topic<sensor_msgs::PointCloud2>(a, b, topics::kParticles, to_the_bit));
   } catch (const ros::Exception& error) {
     throw BagError(fmt::format("{} or {} is damaged: {}", a.path(), b.path(), error.what()));

@@ -7,13 +7,6 @@
 
 namespace mpm_ros {
 
-void Extreme::offer(const mpm::Vec3& candidate, std::int64_t when) {
-  if (candidate.norm() <= norm) return;
-  norm = candidate.norm();
-  vector = candidate;
-  time = when;
-}
-
 namespace {
 
 /// The entry of that name, made where there is none.
@@ -105,6 +98,13 @@ void RunStatistics::global_quantities(std::int64_t /*time*/, const GlobalQuantit
     known.last = value;
     known.least = std::min(known.least, value);
     known.most = std::max(known.most, value);
+  }
+}
+
+void RunStatistics::robots(std::int64_t time, const RobotStates& message) {
+  for (std::size_t r = 0; r < message.robots.size(); ++r) {
+    if (r == robots_.size()) robots_.emplace_back();
+    robots_[r].take(time, message.robots[r]);
   }
 }
 

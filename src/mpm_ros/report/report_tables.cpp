@@ -10,6 +10,7 @@
 #include "mpm/math/nanoseconds.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
+#include "mpm_ros/report/report_robots.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -192,13 +193,14 @@ std::string TextTable::text() const {
 
 std::string tables(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
-  const std::array<std::string, 7> parts = {run_table(run),
-                                            body_contacts(statistics, run.scene.axisymmetric),
-                                            pair_contacts(statistics) + motion_table(statistics),
-                                            energy_table(statistics),
-                                            audit_table(statistics),
-                                            global_table(statistics) + command_table(statistics),
-                                            gap_lines(run.gaps)};
+  const std::array<std::string, 7> parts = {
+      run_table(run),
+      body_contacts(statistics, run.scene.axisymmetric),
+      pair_contacts(statistics) + robot_tables(statistics.robot_statistics()) + motion_table(statistics),
+      energy_table(statistics),
+      audit_table(statistics),
+      global_table(statistics) + command_table(statistics),
+      gap_lines(run.gaps)};
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
 

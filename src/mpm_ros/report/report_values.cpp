@@ -143,4 +143,23 @@ std::vector<ComparedValue> values_of(const Cracks& message) {
   return list.take();
 }
 
+std::vector<ComparedValue> values_of(const RobotStates& message) {
+  List list;
+  for (const RobotState& robot : message.robots) {
+    list.word("name", robot.name);
+    list.pose(robot.name, robot.base);
+    list.twist(robot.name, robot.base_twist);
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      const std::string joint = robot.name + "/" + robot.joints[j];
+      list.number(joint + " position", robot.position.at(j));
+      list.number(joint + " velocity", robot.velocity.at(j));
+      list.number(joint + " effort", robot.effort.at(j));
+      list.number(joint + " target", robot.target.at(j));
+    }
+    for (const JointWrench& sensor : robot.sensors) list.wrench(robot.name + "/" + sensor.joint, sensor.wrench);
+    list.numbers(robot.name + " ", robot, robot_quantities());
+  }
+  return list.take();
+}
+
 }  // namespace mpm_ros

@@ -11,6 +11,7 @@
 #include "mpm/rules/method_text.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
+#include "mpm_ros/message/robot_messages.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -76,6 +77,42 @@ nlohmann::ordered_json target_json(const mpm::pace::Target& target, double reach
   return json;
 }
 
+/// Robots as they stand at the end, with efforts of the last step.
+nlohmann::ordered_json robots_json(const std::vector<mpm::RobotReport>& robots) {
+  nlohmann::ordered_json json;
+  for (const mpm::RobotReport& robot : robots) {
+    nlohmann::ordered_json& one = json[robot.name];
+    one["joints"] = nlohmann::ordered_json::object();
+    one["sensors"] = nlohmann::ordered_json::object();
+    for (const mpm::JointReport& joint : robot.joints) {
+      one["joints"][joint.name] = {{"unit", joint_units(joint.prismatic).position},
+                                   {"drive", mpm::kJointDriveNames[static_cast<std::size_t>(joint.drive)]},
+                                   {"position", joint.position},
+                                   {"velocity", joint.velocity},
+                                   {"effort", joint.effort},
+                                   {"target", joint.target},
+                                   {"impulse", joint.impulse}};
+    }
+    for (const mpm::SensorReport& sensor : robot.sensors) {
+      one["sensors"][sensor.joint] = {
+          {"link", sensor.link}, {"force", array(sensor.wrench.force)}, {"torque", array(sensor.wrench.torque)}};
+    }
+    for (const RobotQuantity& energy : robot_quantities())
+      one["energy"][energy.figures.front().key] = std::get<double>(energy.of_report(robot));
+  }
+  return json;
+}
+
+std::string robot_line(const mpm::RobotReport& robot) {
+  std::string joints;
+  for (const mpm::JointReport& joint : robot.joints) {
+    joints += fmt::format("{}{} {:.4g} {}", joints.empty() ? "" : ", ", joint.name, joint.position + 0.0,
+                          joint_units(joint.prismatic).position);
+  }
+  return fmt::format("  robot {} at the end: {}; its drives did {:.4g} J of work\n", robot.name,
+                     joints.empty() ? "no joint that moves" : joints, robot.energies.drive);
+}
+
 }  // namespace
 
 RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
@@ -95,6 +132,7 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       state_hash(cut_short ? 0 : simulation.state_hash()),
       peak_memory(peak_memory_bytes(simulation.ranks())),
       contacts(contacts),
+      robots(simulation.robots()),
       metrics(simulation.metrics()) {}
 
 double RunSummary::particle_steps_per_second() const {
@@ -154,6 +192,7 @@ nlohmann::ordered_json RunSummary::json() const {
   for (const mpm::PairReport& pair : contacts.pairs) {
     root["contact_pairs"][pair.name] = ends_of(pair, pair_quantities());
   }
+  if (!robots.empty()) root["robots"] = robots_json(robots);
   root["metrics"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : metrics) root["metrics"][name] = value;
   return root;
@@ -211,6 +250,7 @@ std::string RunSummary::text() const {
     text += fmt::format("  contact of {}: impulse on the second {} N s; friction took {:.4g} J\n", pair.name,
                         triple(pair.impulse), pair.friction_energy);
   }
+  for (const mpm::RobotReport& robot : robots) text += robot_line(robot);
   if (const double returned = state.number("returned"); returned > 0.0) {
     text += fmt::format("  particles that left the grid and were put back: {:.0f}\n", returned);
   }

@@ -41,6 +41,7 @@ std::vector<KeySection> make_sections() {
                                           section_of(robot_keys(), "robots.md"),
                                           section_of(base_keys(), "robots.md"),
                                           section_of(joint_keys(), "robots.md"),
+                                          section_of(sensor_keys(), "robots.md"),
                                           section_of(contact_law_keys(), "scene/contact.md"),
                                           section_of(contact_keys(), "scene/contact.md"),
                                           section_of(quantity_keys(), "transport.md"),

@@ -251,6 +251,11 @@ void RunOutputs::command(const JointOrder& order) {
   end_writing();
 }
 
+void RunOutputs::state_set(const mpm::StateSet& state) {
+  put(topics::kStatesSet, to_message(state, simulation_.time(), options_.world_frame, stamps_));
+  end_writing();
+}
+
 void RunOutputs::sync(bool last, double real_time_factor) {
   read_contacts();
   read_cuts();

@@ -19,7 +19,7 @@ import pkgutil
 # the build folder's own package has put the sources first, finds them by this.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
-_HOMES = {"MpmError": "errors", "Observation": "simulator", "Observations": "simulators", "Particles": "particles",
+_HOMES = {"MpmError": "errors", "Observation": "observation", "Observations": "simulators", "Particles": "particles",
           "Recording": "recording", "Simulator": "simulator", "Simulators": "simulators", "Sweep": "sweep",
           "SweepRun": "sweep", "Table": "recording", "run_sweep": "sweep"}
 __all__ = list(_HOMES)

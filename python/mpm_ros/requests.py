@@ -101,19 +101,64 @@ def _of_bodies(commands, what, lengths):
 def joint_commands_of(joints):
     """Messages mpm_ros/JointCommand of the dict of robots, each a dict of joints, that `Simulator.step` takes."""
     from .msg import JointCommand
+    return [JointCommand(robot=robot, joints=list(values), values=_values_of(robot, values))
+            for robot, values in _of_robots(joints).items() if values]
+
+
+def _of_robots(joints):
+    """A dict of robots, each a dict of joints."""
     if joints is None:
-        return []
+        return {}
     if not isinstance(joints, Mapping) or not all(isinstance(of, Mapping) for of in joints.values()):
         raise MpmError('joints is a dict of robots, each a dict of joints, such as {"digger": {"boom": 0.2}}')
-    commands = []
-    for robot, values in joints.items():
-        for joint, value in values.items():
-            if np.ndim(value) != 0 or not isinstance(value, (int, float, np.number)):
-                raise MpmError(f"joints: '{joint}' of '{robot}' is {value!r}; it must be a number")
-        if values:
-            commands.append(JointCommand(robot=robot, joints=list(values),
-                                         values=[float(value) for value in values.values()]))
-    return commands
+    return joints
+
+
+def _values_of(robot, values):
+    """A number for each joint of a dict."""
+    for joint, value in values.items():
+        if np.ndim(value) != 0 or not isinstance(value, (int, float, np.number)):
+            raise MpmError(f"joints: '{joint}' of '{robot}' is {value!r}; it must be a number")
+    return [float(value) for value in values.values()]
+
+
+def _pose_of(numbers):
+    return Pose(Point(*numbers[:3]), Quaternion(*numbers[3:]))
+
+
+def starts_of(joints, base):
+    """Messages mpm_ros/StateSet of the robots that `Simulator.reset` names."""
+    from .msg import StateSet
+    poses = dict(_of_bodies(base, "base", (7,)))
+    joints = _of_robots(joints)
+    starts = []
+    for robot in dict.fromkeys([*joints, *poses]):
+        values = joints.get(robot, {})
+        start = StateSet(model_name=robot, joint_names=list(values), joint_positions=_values_of(robot, values))
+        if robot in poses:
+            start.pose = _pose_of(poses[robot])
+        starts.append(start)
+    return starts
+
+
+def state_of(name, pose, velocity, joints, joint_velocities):
+    """Fields of mpm_ros/SetState of what `Simulator.set_state` takes."""
+    joints, rates = joints or {}, joint_velocities or {}
+    if not isinstance(joints, Mapping) or not isinstance(rates, Mapping):
+        raise MpmError('joints and joint_velocities are dicts of joints, such as {"boom": 0.2}')
+    if not set(rates) <= set(joints):
+        raise MpmError(f"joint_velocities names {', '.join(sorted(set(rates) - set(joints)))}, which joints does not; "
+                       "give positions too")
+    if velocity is not None and pose is None:
+        raise MpmError("velocity is set with a pose; give the present one where it is to stay")
+    fields = {"model_name": name, "joint_names": list(joints), "joint_positions": _values_of(name, joints),
+              "joint_velocities": _values_of(name, {joint: rates.get(joint, 0.0) for joint in joints})}
+    if pose is not None:
+        fields["pose"] = _pose_of(_numbers_of(name, pose, (7,), "pose"))
+    if velocity is not None:
+        numbers = _numbers_of(name, velocity, (3, 6), "velocity")
+        fields["twist"] = Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:]))
+    return fields
 
 
 def commands_of(velocity, pose, wrench, velocity_body=None):
@@ -128,8 +173,7 @@ def commands_of(velocity, pose, wrench, velocity_body=None):
         commands.append(Command(body=body, kind=Command.VELOCITY,
                                 twist=Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))
     for body, numbers in _of_bodies(pose, "pose", (7,)):
-        commands.append(Command(body=body, kind=Command.POSE,
-                                pose=Pose(Point(*numbers[:3]), Quaternion(*numbers[3:]))))
+        commands.append(Command(body=body, kind=Command.POSE, pose=_pose_of(numbers)))
     for body, numbers in _of_bodies(wrench, "wrench", (3, 6)):
         commands.append(Command(body=body, kind=Command.WRENCH,
                                 wrench=Wrench(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))

@@ -12,82 +12,14 @@ from .calls import whole
 from .errors import MpmError
 from .master import close, master_at, master_runs
 from .names import DEFAULT_NAMESPACE, lock_namespace
+from .observation import Observation
 from .particles import Particles
 from .process import NodeProcess, find_program
-from .requests import advance, changes_of, commands_of, joint_commands_of, node_parameters, path_of
+from .requests import advance, changes_of, commands_of, joint_commands_of, node_parameters, path_of, \
+    starts_of, state_of
 
 _CLOUD_PATIENCE = 20.0  # [s] wall time for a message that the node has handed to its connection
 _numbers = itertools.count(1)
-
-
-class Body:
-    """A rigid body after a step. Arrays are views of the node's answer; world axes, torques about the body's origin.
-
-    name
-    position, orientation    (3,) [m], (4,) unit quaternion x, y, z, w
-    velocity, rotation_rate  (3,) [m/s] of the origin, (3,) [rad/s]
-    force, torque            (3,) [N], (3,) [N m]: of the material on the body, mean of the step
-    peak_force, peak_torque  (3,) in that step of the solver with the largest force
-    impulse                  (3,) [N s] since the run's start
-    state, contact           all fields, as in mpm_ros/BodyState and mpm_ros/ContactForce
-    """
-
-    def __init__(self, state, contact):
-        self.name = state.name
-        self.position, self.orientation = state.pose[:3], state.pose[3:]
-        self.velocity, self.rotation_rate = state.twist[:3], state.twist[3:]
-        self.force, self.torque = contact.wrench[:3], contact.wrench[3:]
-        self.peak_force, self.peak_torque = contact.peak[:3], contact.peak[3:]
-        self.impulse = contact.impulse
-        self.state = state
-        self.contact = contact
-
-
-class Robot:
-    """A robot after a step; arrays have a value for each of `joints`.
-
-    name, joints             of the robot, and of all its joints that move
-    position, velocity       (n,) [m] or [rad], [m/s] or [rad/s]
-    effort                   (n,) [N] or [N m] of the drives, mean of the step
-    base_position, base_orientation  (3,) [m], (4,) unit quaternion x, y, z, w
-    base_velocity, base_rotation_rate  (3,) [m/s], (3,) [rad/s]; world axes
-    """
-
-    def __init__(self, state):
-        self.name, self.joints = state.name, state.joints
-        self.position, self.velocity, self.effort = state.position, state.velocity, state.effort
-        self.base_position, self.base_orientation = state.base[:3], state.base[3:]
-        self.base_velocity, self.base_rotation_rate = state.base_twist[:3], state.base_twist[3:]
-
-
-class Observation:
-    """What a step answers.
-
-    time       [s] simulated since the run's start
-    stamp      [ns] of the state reached
-    ended      whether the scene's end is reached; `reset` begins again
-    bodies     dict: name to Body; a robot's link is <robot>/<link>
-    robots     dict: name to Robot
-    pairs      list: contacts between deformable bodies, as in mpm_ros/ContactPair
-    particles  Particles: the last snapshot up to `time`, at multiples of `particle_period`. None without that, and
-               before the first that comes: that of time zero is sent before anybody listens, except after a reset
-    """
-
-    def __init__(self, answer, particles):
-        self.time = answer.time
-        self.stamp = answer.stamp
-        self.ended = "the run has ended" in answer.message
-        contacts = {contact.name: contact for contact in answer.contact_forces.bodies}
-        self.bodies = {state.name: Body(state, contacts[state.name]) for state in answer.bodies.bodies}
-        self.robots = {state.name: Robot(state) for state in answer.robots}
-        self.pairs = answer.contact_forces.pairs
-        self.particles = particles
-
-    def __getitem__(self, body):
-        """The body of that name."""
-        if body not in self.bodies:
-            raise KeyError(f"there is no rigid body '{body}'; there are {', '.join(self.bodies) or 'none'}")
-        return self.bodies[body]
 
 
 class Simulator:
@@ -206,16 +138,36 @@ class Simulator:
             return Observation(answer, self._particles_at(answer.stamp))
 
     @whole
-    def reset(self, set=None):
-        """Begins the scene again and returns the Observation at time zero. Also after a failure of the physics. `set`:
-        changes to the scene, as in Simulator() and over those given there, for this run and the next ones; None: those of
-        the last call."""
+    def reset(self, set=None, *, joints=None, base=None):
+        """Begins the scene again and returns the Observation at time zero. Also after a failure of the physics.
+
+        set     changes to the scene, as in Simulator() and over those given there, for this run and the next ones; None:
+                those of the last call
+        joints  positions with which robots begin, over the scene and `set`: {"digger": {"boom": 0.2}} [m] or [rad];
+                for this run alone
+        base    poses with which bases of robots begin: {"digger": (7,)} position [m] and quaternion x, y, z, w; the same
+        """
         changes = self._changes if set is None else changes_of(set)
         with self._whole():
-            answer = yield from self._call("reset_with", set=changes)
+            answer = yield from self._call("reset_with", set=changes, start=starts_of(joints, base))
             self._changes = changes
             self._begin_run(answer.stamp)
             return Observation(answer, self._particles_at(answer.stamp))
+
+    @whole
+    def set_state(self, name, *, pose=None, velocity=None, joints=None, joint_velocities=None):
+        """Sets the state of a rigid body or a robot between two steps, in place of what the run has come to.
+
+        name              of the body or the robot
+        pose              (7,) position [m] and quaternion x, y, z, w of the body, or of the robot's base; None: as it is
+        velocity          (3,) [m/s] of that origin, or (6,) with the rotation rate [rad/s]; world axes; of a free body or
+                          base, and with a pose; None: at rest
+        joints            positions of a robot's joints by name [m] or [rad]
+        joint_velocities  the same of some of these joints [m/s] or [rad/s]; others are at rest
+
+        Raises MpmError when it cannot be there, as where material lies in it by more than half a cell; then nothing is
+        changed."""
+        yield from self._call("set_state", **state_of(name, pose, velocity, joints, joint_velocities))
 
     @whole
     def save_checkpoint(self, path):
@@ -282,7 +234,7 @@ class Simulator:
             self.info = self._latched("run_info")
             self._interrupted = False
         if not answer.success:
-            raise MpmError(answer.message)
+            raise MpmError(answer.status_message if name == "set_state" else answer.message)
         return answer
 
     def _failures(self, doing):
@@ -382,8 +334,8 @@ def _close(process, connections, master):
 def _service_class(name):
     from std_srvs.srv import Trigger
     from . import srv
-    return {"step": srv.Step, "reset": Trigger, "reset_with": srv.Reset, "save_checkpoint": srv.Checkpoint,
-            "load_checkpoint": srv.Checkpoint}[name]
+    return {"step": srv.Step, "reset": Trigger, "reset_with": srv.Reset, "set_state": srv.SetState,
+            "save_checkpoint": srv.Checkpoint, "load_checkpoint": srv.Checkpoint}[name]
 
 
 def _message_class(name):

@@ -117,7 +117,8 @@ class DartEngine final : public RobotEngine {
 
   Eigen::Matrix<double, 6, 1> joint_wrench(int joint, const Eigen::VectorXd& velocities,
                                            const Eigen::VectorXd& accelerations, const std::vector<int>& links,
-                                           const std::vector<Eigen::Matrix<double, 6, 1>>& wrenches) override {
+                                           const std::vector<Eigen::Matrix<double, 6, 1>>& wrenches,
+                                           bool weight) override {
     set_velocities(velocities);
     Eigen::VectorXd theirs(velocities.size());
     for (std::size_t i = 0; i < numbers_.size(); ++i) theirs[numbers_[i]] = accelerations[static_cast<Eigen::Index>(i)];
@@ -128,7 +129,10 @@ class DartEngine final : public RobotEngine {
       node.addExtTorque(wrenches[l].head<3>(), false);
       node.addExtForce(wrenches[l].tail<3>(), Vec3::Zero(), false, true);
     }
+    const Vec3 gravity = skeleton_->getGravity();
+    if (!weight) skeleton_->setGravity(Vec3::Zero());
     skeleton_->computeInverseDynamics(true);
+    if (!weight) skeleton_->setGravity(gravity);
     const Eigen::Matrix<double, 6, 1> wrench = nodes_[joint + 1]->getBodyForce();
     skeleton_->clearExternalForces();
     return wrench;

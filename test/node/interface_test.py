@@ -122,9 +122,10 @@ class Interface(unittest.TestCase):
         step = roslib.message.get_service_class("mpm_ros/Step")
         command = roslib.message.get_message_class("mpm_ros/Command")
         take = rospy.ServiceProxy(full_name("step"), step)
+        put = rospy.ServiceProxy(full_name("set_state"), roslib.message.get_service_class("mpm_ros/SetState"))
 
         def expected(steps):
-            numbers = {"start": 0, "command": COMMANDS * steps}
+            numbers = {"start": 0, "command": COMMANDS * steps, "set": steps}
             return {name: numbers[row["rate"]] if row["rate"] in numbers
                     else round(DURATION * steps * self.table["parameters"][row["rate"]])
                     for name, row in rows.items() if row["rate"] != "wall"}
@@ -137,6 +138,9 @@ class Interface(unittest.TestCase):
             request.commands = [command(body=self.table["bodies"][1], kind=command.VELOCITY) for _ in range(COMMANDS)]
             answer = take(request)
             self.assertTrue(answer.success, answer.message)
+            first = answer.bodies.bodies[0]
+            state = put(model_name=first.name, pose=first.pose)
+            self.assertTrue(state.success, state.status_message)
             eventually(lambda n=steps: all(counts()[name] >= number for name, number in expected(n).items()))
         time.sleep(0.3)  # for more than expected
         self.assertEqual(counts(), expected(STEPS))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Robots in the node: commands of joints by steps and on topics, what is published and recorded, a bag run again. 15 s.
-Skipped in a build without robots."""
+"""Robots in the node: commands of joints and bases by steps and on topics, where they begin and are set, what is
+published and recorded, bags run again. 30 s. Skipped in a build without robots."""
 import os
 import tempfile
 import threading
@@ -10,7 +10,7 @@ import mpm_ros
 import numpy as np
 import rosbag
 import rospy
-from mpm_ros.srv import Step
+from mpm_ros.srv import SetState, Step
 from sensor_msgs.msg import JointState
 from support import program, run, running_master, source_file
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -79,6 +79,67 @@ class Robots(unittest.TestCase):
             self.assertAlmostEqual(wrenches[8].wrench.force.z, 9.81, delta=1e-6)
             again = run(program("run_scene"), "--from-bag", bag)
             self.assertIn("equal to the recorded one", again)
+
+    def test_a_moving_base_takes_commands_by_the_robots_name(self):
+        moving = {"robots.gantry.base.kind": "moving", "robots.gantry.base.limits": {"speed": 0.5}}
+        with simulator(set=moving) as sim:
+            obs = sim.step(0.02, velocity={"gantry": (0.1, 0, 0, 0, 0, 0)})
+            np.testing.assert_allclose(obs.robots["gantry"].base_position, [0.002, 0, 0.04], atol=1e-15)
+            np.testing.assert_allclose(obs["gantry/plate"].position[0], 0.002, atol=1e-15)
+            obs = sim.step(0.02, velocity={"gantry": (5.0, 0, 0)})  # within the limit
+            np.testing.assert_allclose(obs.robots["gantry"].base_velocity, [0.5, 0, 0], atol=1e-15)
+            obs = sim.step(0.1, pose={"gantry": (0, 0, 0.05, 0, 0, 0, 1)})
+            np.testing.assert_allclose(obs.robots["gantry"].base_position, [0, 0, 0.05], atol=1e-12)
+            with self.assertRaisesRegex(mpm_ros.MpmError, "gantry"):
+                sim.step(count=1, velocity={"gantri": (0.1, 0, 0)})
+
+    def test_robots_begin_elsewhere(self):
+        with simulator() as sim:
+            obs = sim.reset(joints={"gantry": {"along": 0.05, "turn": 0.2}},
+                            base={"gantry": (0, 0.01, 0.06, 0, 0, 0, 1)})
+            np.testing.assert_allclose(obs.robots["gantry"].position, [0.05, 0, 0.2], atol=1e-15)
+            np.testing.assert_allclose(obs["gantry/plate"].position, [0.05, 0.01, 0.06], atol=1e-15)
+            obs = sim.step(0.02)
+            # A rigid drive holds where the joint begins; that with stiffness sags by nothing, as the plate is balanced.
+            np.testing.assert_allclose(obs.robots["gantry"].position[[0, 2]], [0.05, 0.2], atol=1e-9)
+            for joints, reason in [({"gantry": {"alng": 0.1}}, "along"), ({"gantri": {}}, "gantry"),
+                                   ({"gantry": {"along": 3.0}}, "limits from -1 to 1")]:
+                with self.subTest(joints=joints), self.assertRaisesRegex(mpm_ros.MpmError, reason):
+                    sim.reset(joints=joints)
+            self.assertEqual(sim.reset().robots["gantry"].position[0], 0)
+
+    def test_states_that_are_set_are_recorded_and_set_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bag = os.path.join(folder, "run.bag")
+            with simulator(record=bag) as sim:
+                sim.reset(joints={"gantry": {"along": 0.02}})
+                sim.step(0.1, joints={"gantry": {"down": 0.4}})  # onto the clay
+                sim.set_state("gantry", joints={"along": -0.05, "down": -0.1}, joint_velocities={"down": 0.1},
+                              pose=(0.01, 0, 0.05, 0, 0, 0, 1))
+                with self.assertRaisesRegex(mpm_ros.MpmError, "more than half a cell"):
+                    sim.set_state("gantry", joints={"down": 0.2})
+                with self.assertRaisesRegex(mpm_ros.MpmError, "gantry"):
+                    sim.set_state("gantri", joints={"down": 0.2})
+                obs = sim.step(count=1)
+                np.testing.assert_allclose(obs.robots["gantry"].position[0], -0.05, atol=1e-15)
+                np.testing.assert_allclose(obs["gantry/plate"].position[0], -0.04, atol=1e-12)
+                np.testing.assert_array_equal(obs["gantry/plate"].force, 0)
+                sim.step(0.05)
+                sim.set_state("gantry", joints={"along": 0.1})  # after the last step
+            second = bag.replace(".bag", "_2.bag")
+            with rosbag.Bag(second) as recorded:
+                self.assertEqual(recorded.get_message_count("/mpm/states_set"), 2)
+            again = run(program("run_scene"), "--from-bag", second)
+            self.assertIn("equal to the recorded one", again)
+
+    def test_states_are_set_in_the_world_frame(self):
+        with running_master():
+            with simulator() as sim:
+                rospy.wait_for_service(sim.namespace + "/set_state", 10)
+                put = rospy.ServiceProxy(sim.namespace + "/set_state", SetState)
+                answer = put(model_name="gantry", joint_names=["along"], joint_positions=[0.1], reference_frame="map")
+                self.assertFalse(answer.success)
+                self.assertIn("'map'", answer.status_message)
 
     def test_topics_command_joints(self):
         with running_master():

@@ -1,5 +1,5 @@
 // Links on material: a robot whose joints are all prescribed against the same rigid body, efforts of joints against the
-// wrench of the material, a robot much lighter than what it stands on. Cost: 25 s.
+// wrench of the material, sensors, a robot much lighter than what it stands on. Cost: 30 s.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -224,6 +224,74 @@ TEST(RobotContact, AMovingBaseActsAsTheSameRigidBody) {
     const ContactReport a = robot.take_contact(0), b = body.take_contact(0);
     most = std::max(most, b.mean.force.norm());
     apart = std::max(apart, (a.mean.force - b.mean.force).norm());
+  }
+  EXPECT_GT(most, 100.0);
+  EXPECT_LT(apart, 1e-9 * most);
+}
+
+// The same by commands: a velocity, then a pose that is reached at its time.
+TEST(RobotContact, ACommandedBaseActsAsTheCommandedBody) {
+  Simulation robot = run_of(clay(fmt::format(R"(robots:
+  - name: gantry
+    urdf: {}
+    base: {{kind: moving, pose: {{position: [0, 0, 0.035]}}}}
+    links: {{plate: {{friction: 0.3}}}}
+    joints: {{along: {{drive: position}}, down: {{drive: position}}, turn: {{drive: position}}}}
+)",
+                                             data_file("gantry.urdf"))));
+  Simulation body = run_of(clay(R"(rigid_bodies:
+  - name: plate
+    shape: {box: {size: [0.16, 0.16, 0.06]}}
+    pose: {position: [0, 0, 0.035]}
+    friction: 0.3
+)"));
+  EXPECT_EQ(robot.find_commanded("gantry/plate"), 0);
+  const int base = robot.find_commanded("gantry");
+  ASSERT_EQ(base, 1);
+  const Pose target{Vec3(0.02, 0.0, 0.02), Quat(Eigen::AngleAxisd(0.1, Vec3::UnitZ()))};
+  double most = 0.0, apart = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    for (Simulation* run : {&robot, &body}) {
+      const int index = run == &robot ? base : 0;
+      if (k == 0) run->command_velocity(index, {Vec3(0.2, 0.0, -0.2), Vec3(0.0, 0.0, 0.5)});
+      if (k == 200) run->command_pose(index, target, 70'000'000);
+      run->advance();
+    }
+    const ContactReport a = robot.take_contact(0), b = body.take_contact(0);
+    most = std::max(most, b.mean.force.norm());
+    apart = std::max(apart, (a.mean.force - b.mean.force).norm());
+  }
+  EXPECT_GT(most, 100.0);
+  EXPECT_LT(apart, 1e-9 * most);
+  EXPECT_EQ(robot.robots()[0].base.position, target.position);
+  EXPECT_EQ(robot.robots()[0].base_twist.linear, Vec3(Vec3::Zero()));
+}
+
+// The plate weighs 1 kg. At rest a sensor reads its weight or nothing; on the clay both read the same besides.
+TEST(RobotContact, ASensorWithoutGravityLeavesOutTheWeightAlone) {
+  const auto run_with = [](const char* gravity) {
+    return run_of(clay(fmt::format(R"(robots:
+  - name: gantry
+    urdf: {}
+    base: {{pose: {{position: [0, 0, 0.035]}}}}
+    links: {{plate: {{friction: 0.3}}}}
+    joints: {{along: {{drive: position}}, down: {{drive: velocity, target: "0.4 * (t > 0.01) + 0"}}, turn: {{drive: position}}}}
+    sensors: {{turn: {{gravity: {}}}}}
+)",
+                                   data_file("gantry.urdf"), gravity)));
+  };
+  Simulation with = run_with("true"), without = run_with("false");
+  double most = 0.0, apart = 0.0;
+  for (int k = 0; k < 300; ++k) {
+    with.advance();
+    without.advance();
+    const Wrench a = with.robots()[0].sensors[0].wrench, b = without.robots()[0].sensors[0].wrench;
+    if (k == 20) {
+      EXPECT_NEAR(a.force.z(), 9.81, 1e-9);
+      EXPECT_LT(b.force.norm(), 1e-9);
+    }
+    most = std::max(most, b.force.norm());
+    apart = std::max(apart, (a.force - b.force - Vec3(0.0, 0.0, 9.81)).norm());
   }
   EXPECT_GT(most, 100.0);
   EXPECT_LT(apart, 1e-9 * most);

@@ -26,6 +26,11 @@ class PointMemory {
     return (static_cast<std::uint64_t>(point.particle) << 16) + point.body;
   }
   void clear() { entries_.clear(); }
+  /// Forgets the points of a body.
+  void forget(int body) {
+    const auto of_body = [&](const Entry& entry) { return static_cast<int>(entry.id & 0xffffU) == body; };
+    entries_.erase(std::remove_if(entries_.begin(), entries_.end(), of_body), entries_.end());
+  }
   void add(const Entry& entry) { entries_.push_back(entry); }
   /// Call when all entries have been added: sorts them by id.
   void close() {

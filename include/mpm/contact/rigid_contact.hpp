@@ -61,6 +61,10 @@ class RigidContact final : public Stage, public ContactReporter {
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
   void energies(EnergyReport& report) const override { ledger_.energies(report); }
   ContactLedger* ledger_of(const RigidBody& body) override { return &body == &body_ ? &ledger_ : nullptr; }
+  void body_put(const RigidBody& body) override {
+    if (&body != &body_) return;
+    for (HeldNodes& held : held_) held.clear();
+  }
   void serialise(StateArchive& archive) override;
 
   ContactLedger& ledger() { return ledger_; }

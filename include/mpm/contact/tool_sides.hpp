@@ -57,6 +57,8 @@ class ToolSides final : public Module {
   /// True if a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
   /// Writes or reads its state, for checkpoints.
+  /// Gives all sides anew, as at the start.
+  void body_put(const RigidBody& body) override;
   void serialise(StateArchive& archive) override;
 
  private:

@@ -90,6 +90,8 @@ class ToolRows {
   /// Adds what rows give to the components of velocity that are held.
   void add_to_held(HeldImpulses& held) const;
 
+  /// Forgets the forces on a body that has been put elsewhere.
+  void forget(const RigidBody& body);
   std::vector<ContactLedger>& ledgers() { return ledgers_; }
   const std::vector<ContactLedger>& ledgers() const { return ledgers_; }
   void serialise(StateArchive& archive);
@@ -124,6 +126,7 @@ class ToolRows {
   struct Kept {
     std::vector<double> force;  ///< three numbers each [N]
     std::vector<double> own;    ///< Row::own [1/kg]
+    void clear();
   };
   /// Width of what lies at `at` across the x-z plane: the thickness, or a turn [m]; in space 1.
   double across(const Vec3& at) const;

@@ -50,13 +50,15 @@ struct BodyMomentum {
   }
 };
 
-/// Counts since the start of the run: momentum = that of the start + contact + gravity + wrench + drive.
+/// Counts since the start of the run: momentum = that of the start + contact + gravity + wrench + drive + set.
 struct FreeAccount {
   BodyMomentum initial_momentum;
   BodyMomentum contact;  ///< from the material
   BodyMomentum gravity;
   BodyMomentum wrench;        ///< applied by apply_wrench()
   BodyMomentum drive;         ///< needed to keep prescribed velocities
+  BodyMomentum set;           ///< given by put()
+  double set_work = 0.0;      ///< the same of kinetic and potential energy [J]
   double wrench_work = 0.0;   ///< done by the wrench [J]
   double drive_work = 0.0;    ///< done by the drive [J]
   double contact_loss = 0.0;  ///< lost where the body and the material met, sliding left out [J]
@@ -68,14 +70,13 @@ struct FreeCount {
   const char* name;
   Count FreeAccount::*count;
 };
-inline constexpr FreeCount<BodyMomentum> kFreeMomenta[] = {{"initial", &FreeAccount::initial_momentum},
-                                                           {"contact", &FreeAccount::contact},
-                                                           {"gravity", &FreeAccount::gravity},
-                                                           {"applied", &FreeAccount::wrench},
-                                                           {"drive", &FreeAccount::drive}};
+inline constexpr FreeCount<BodyMomentum> kFreeMomenta[] = {
+    {"initial", &FreeAccount::initial_momentum}, {"contact", &FreeAccount::contact}, {"gravity", &FreeAccount::gravity},
+    {"applied", &FreeAccount::wrench},           {"drive", &FreeAccount::drive},     {"set", &FreeAccount::set}};
 inline constexpr FreeCount<double> kFreeEnergies[] = {{"wrench_work", &FreeAccount::wrench_work},
                                                       {"drive_work", &FreeAccount::drive_work},
-                                                      {"loss", &FreeAccount::contact_loss}};
+                                                      {"loss", &FreeAccount::contact_loss},
+                                                      {"set_work", &FreeAccount::set_work}};
 
 struct FreeBodyReport : FreeAccount {
   std::string body;
@@ -101,6 +102,8 @@ class FreeMotion final : public DynamicMotion {
 
   /// Begins the run with this twist of the origin.
   void start(const Pose& pose, const Twist& twist);
+  /// Puts it elsewhere between two steps, with this twist of the origin, and books what it gains. `gravity` [m/s^2]
+  void put(const Pose& pose, const Twist& twist, const Vec3& gravity);
   /// Computes the step's velocity without contact. `twist`: of the origin, with the prescribed parts of this step.
   void predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
   void push(const Vec3& impulse, const Vec3& point) override {
@@ -132,6 +135,7 @@ class FreeMotion final : public DynamicMotion {
 
  private:
   Mat3 inertia_at(const Quat& orientation) const;
+  void begin_at(const Pose& pose, const Twist& twist);
   /// Takes over where the body is: its centre of mass, and its inertia about the world's axes.
   void place(const Pose& pose);
   /// Rotation rate by angular momentum, of the free rotations alone [1/(kg m^2)].

@@ -27,6 +27,10 @@ namespace mpm {
 /// Automatic: if the body is thinner than three cells somewhere.
 enum class Sides { automatic, one, two };
 
+/// The pose with its quaternion at unit length. `what`: begins an error.
+/// @throws RigidError when not finite, or the quaternion's length is not 1 within 1e-3
+Pose checked_pose(const Pose& pose, const std::string& what);
+
 /// The definition of a rigid body.
 struct RigidBodyDefinition {
   std::string name;
@@ -97,6 +101,13 @@ class RigidBody {
     pose_ = pose;
     return motion_.emplace<LinkMotion>(robot, response);
   }
+  /// Sets pose and twist between two steps, and ends a pose command. The twist is that of free velocities, others go on
+  /// as they are prescribed; what a free body gains is booked. `gravity` [m/s^2]: for that account.
+  /// @throws RigidError, when nothing is changed: not finite, a pose that the body cannot have, or a twist for a body
+  /// that only moves as prescribed
+  void set_state(const Pose& pose, const Twist& twist, const Vec3& gravity);
+  /// Sets the pose of a link between two steps.
+  void put(const Pose& pose) { pose_ = pose; }
   /// Sets the twist of a free body or a link after contact and forces.
   void set_twist(const Twist& twist) { twist_ = twist; }
 

@@ -45,13 +45,19 @@ struct LinkContact {
   std::string body;  ///< name of the rigid body
 };
 
+/// A force-torque sensor at a joint.
+struct SensorDefinition {
+  int joint = 0;        ///< in RobotModel::joints
+  bool gravity = true;  ///< true if it feels the weight of what hangs on it, as a sensor does that is not tared
+};
+
 struct RobotDefinition {
   std::string name;
   RobotModel model;
   BaseDefinition base;
   std::vector<JointDefinition> joints;  ///< one for each joint that moves and mimics none, in their order
   std::vector<LinkContact> contacts;
-  std::vector<int> sensors;  ///< joints whose wrench is reported
+  std::vector<SensorDefinition> sensors;
 };
 
 }  // namespace mpm

@@ -31,10 +31,12 @@ class RobotEngine {
   /// -m g.x of all links [J]
   virtual double potential() = 0;
   /// Wrench that a joint transmits to its child, in the child's axes and about its origin, torque first, with these
-  /// velocities and accelerations, and with these wrenches of contact on links (world axes, about their origins).
+  /// velocities and accelerations, and with these wrenches of contact on links (world axes, about their origins);
+  /// without `weight` as if nothing had any.
   virtual Eigen::Matrix<double, 6, 1> joint_wrench(int joint, const Eigen::VectorXd& velocities,
                                                    const Eigen::VectorXd& accelerations, const std::vector<int>& links,
-                                                   const std::vector<Eigen::Matrix<double, 6, 1>>& wrenches) = 0;
+                                                   const std::vector<Eigen::Matrix<double, 6, 1>>& wrenches,
+                                                   bool weight) = 0;
 };
 
 /// Makes the engine of a robot under gravity [m/s^2].

@@ -13,7 +13,9 @@
 // chapter 3.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,8 +49,23 @@ class Robot final : public Articulation {
   /// Follows a trajectory that has been checked.
   void follow(int joint, std::vector<JointKnot> knots, double now);
 
+  /// Positions and velocities of joints by name; no velocities: at rest. [m], [rad]; [m/s], [rad/s]
+  struct JointStates {
+    std::vector<std::string> names;
+    std::vector<double> positions, velocities;
+  };
+  /// Looks whether links may be where they have been put. @throws RigidError
+  using CheckPlaces = std::function<void(const std::vector<const RigidBody*>& moved)>;
+  /// Sets base and joints between two steps; without a pose the base stays as it is. Drives by position hold where
+  /// their joints are put. The change of energy is booked. @throws RigidError, when nothing is changed: a joint that is
+  /// not there or outside its limits, numbers that are not finite, a twist of a base that is not free, or by `check`
+  void set_state(const std::optional<Pose>& pose, const Twist& twist, const JointStates& joints,
+                 const CheckPlaces& check);
+
   void begin_step(double time, double dt);
   void end_step();
+  /// At a sync point [ns]: a base that has reached a commanded pose is put exactly there.
+  void at_sync(std::int64_t now);
   // Articulation
   void predict(double dt) override;
   void begin_trial() override;
@@ -57,6 +74,10 @@ class Robot final : public Articulation {
   void end_increment() override;
   bool settle() override;
   void finish() override;
+
+  /// The motion of a moving base, which commands act on as on a prescribed body; null for others. Its name is the
+  /// robot's, its surface a sphere around the links at the start, which meets nothing.
+  RigidBody* base_motion() { return base_motion_.get(); }
 
   /// The largest speed of a link's points that its motion and its drives ask for, `ahead` [s] after `start` [s], in a
   /// sync period of `period` [s]; [m/s]
@@ -87,16 +108,26 @@ class Robot final : public Articulation {
 
   int base_freedoms() const { return definition_.base.kind == BaseKind::fixed ? 0 : 6; }
   void find_parts();
+  /// @throws RigidError
+  void check_state(std::size_t joint, double position, double velocity) const;
+  void check_twist(const Twist& twist) const;
+  /// Puts the bodies of links, with their twists, where base and joints are.
   void put_links();
+  /// Puts the engine where the robot is, with mass matrix and Jacobians there.
+  void find_places();
   /// Positions of all joints that move, for the engine.
   void full_positions();
   void reduce_mass();
   void find_jacobian(int link, Eigen::MatrixXd& into);
   const Eigen::VectorXd& reduced_bias(const Eigen::VectorXd& velocities);
+  std::unique_ptr<RigidBody> make_base_motion() const;
+  LinkMotion::Vec6 in_base_axes(const Twist& twist) const;
   void set_laws(double time);
   JointActions actions_of(std::size_t joint, double time) const;
   /// Velocities of links by those of the joints.
   void tell_links(const Eigen::VectorXd& velocities);
+  /// Velocities at the step's start, with what is prescribed in it.
+  const Eigen::VectorXd& merge_prescribed();
   void find_response();
   void add_contact(Eigen::VectorXd& momentum, bool pushed) const;
   void book();
@@ -116,7 +147,7 @@ class Robot final : public Articulation {
   Eigen::VectorXd velocities_;  ///< with those of the base
   double time_ = 0.0, dt_ = 0.0;
   bool predicted_ = false;
-  Twist base_twist_;  ///< twist of a moving base
+  std::unique_ptr<RigidBody> base_motion_;  ///< motion of a moving base; null for others
   RobotEnergies energies_;
   std::vector<double> last_targets_;        ///< targets of drives in the last step
   std::vector<double> impulses_, efforts_;  ///< impulses of drives since the start, efforts in the last step

@@ -9,5 +9,6 @@ namespace mpm {
 const KeyTable<RobotDefinition>& robot_keys();
 const KeyTable<BaseDefinition>& base_keys();
 const KeyTable<JointDefinition>& joint_keys();
+const KeyTable<SensorDefinition>& sensor_keys();
 
 }  // namespace mpm

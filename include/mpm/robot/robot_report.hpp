@@ -28,7 +28,7 @@ struct SensorReport {
 };
 
 /// Energies since the start of the run [J]; kinetic + potential changes by drive + damping + friction + limit +
-/// contact.
+/// contact + set.
 struct RobotEnergies {
   double kinetic = 0.0, potential = 0.0;
   double drive = 0.0;    ///< work of the drives, and of what moves the base
@@ -37,6 +37,7 @@ struct RobotEnergies {
   double limit = 0.0;
   double contact = 0.0;  ///< work of the material on the links
   double loss = 0.0;     ///< lost where links and material met, sliding left out
+  double set = 0.0;      ///< given by Simulation::set_state()
 };
 
 struct RobotReport {

@@ -101,7 +101,8 @@ struct OutputDefinition {
 struct Scene {
   SimulationDefinition definition;  ///< complete except for the particles of the bodies
   std::vector<BodyDefinition> bodies;
-  std::vector<CommandDefinition> commands;   ///< one per entry of definition.rigid_bodies
+  /// One per entry of definition.rigid_bodies, then one per robot whose base moves.
+  std::vector<CommandDefinition> commands;
   std::vector<LoadRegion> load_regions;      ///< one per entry of definition.particle_forces
   std::vector<LoadRegion> traction_regions;  ///< one per entry of definition.tractions
   /// By Transported, one per entry of its fluxes.
@@ -112,6 +113,9 @@ struct Scene {
   std::string text;                    ///< as loaded, with overrides applied, for the record
   std::vector<std::pair<std::string, std::string>> choices;  ///< key and reason of each choice made here, for --explain
 };
+
+/// Names of what Scene::commands are of.
+std::vector<std::string> commanded_names(const Scene& scene);
 
 /// Loads and checks a scene. `name_or_path`: the name of a shipped scene, or a path to a YAML file. `overrides`:
 /// "key.path=value". @throws SceneError

@@ -82,6 +82,9 @@ Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius);
 void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene);
 /// `drive` and `limits` of a rigid body, after its shape
 CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
+/// The tf frame that `drive` names; `usual`: where it is `tf` alone.
+std::string read_frame(const Value& drive, const std::string& usual);
+void read_limits(const Value& value, MotionLimits& limits);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
 /// Refuses a scene for a fault, by the place of its section and what follows it in the key.

@@ -30,6 +30,7 @@
 namespace mpm {
 
 struct CutStep;
+struct StateSet;
 class SweepBudget;
 
 /// The physics failed (exit code 3): J <= 0, a value that is not finite, a particle outside the domain.
@@ -102,6 +103,11 @@ class Simulation {
 
   /// Index of a rigid body, or -1.
   int find_body(const std::string& name) const;
+  /// Index of what can be commanded to move, or -1: a rigid body, or after all of these a robot whose base moves, by
+  /// the robot's name. Commands below take it as `body`, and rigid_body() has its pose and twist.
+  int find_commanded(const std::string& name) const;
+  /// All of these, in that order.
+  std::vector<BodyState> commanded() const;
   /// Prescribes a velocity from now on, until the next command. @throws RigidError when not finite or, in an
   /// axisymmetric scene, when it would take the body off the axis, tilt or spin it; then nothing is changed.
   void command_velocity(int body, const Twist& twist);
@@ -112,6 +118,13 @@ class Simulation {
   /// ignored.
   /// @throws RigidError when not finite, or the body is not free
   void apply_wrench(int body, const Wrench& wrench);
+
+  /// Sets pose and twist of a rigid body, or base and joints of a robot, at the present sync point
+  /// (simulation/state_set.hpp). Contact forgets what it knows of what has moved, material asleep there wakes, and the
+  /// accounts of free bodies and robots have what they gain. Collective.
+  /// @throws RigidError, when nothing is changed: no such body, robot or joint; a pose, twist or position that it
+  /// cannot have; more than half a cell of material in it
+  void set_state(const StateSet& set);
 
   std::vector<BodyState> bodies() const;
   /// Balances of momentum and energies of the free bodies, in their order.
@@ -131,6 +144,7 @@ class Simulation {
   /// Lets joints follow a trajectory each, whose knots are in simulated time [s]. @throws RigidError as
   /// Robot::check_trajectory() does; nothing is changed then
   void follow_trajectory(int robot, const std::vector<int>& joints, std::vector<std::vector<JointKnot>> knots);
+  /// @throws std::out_of_range
   const RigidBody& rigid_body(int body) const;
   /// A number of a rigid body, by one of the names in body_values(): "x" of its origin [m], "vz" [m/s], "wy" [rad/s],
   /// "impulse_x" of contact on it since the start [N s]. @throws DefinitionError for an unknown name

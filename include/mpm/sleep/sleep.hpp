@@ -75,6 +75,7 @@ class Sleep final : public Stage {
   /// Sorts cost, so those who are to wake wait some steps for others, unless it is urgent, and those who may fall
   /// asleep wait for a sort that is asked for by others, though not for long.
   bool needs_sort() const override;
+  void body_put(const RigidBody& body) override;
   void before_sort() override;
   /// Puts nothing back, but over several ranks others may have come before the sort that failed.
   bool put_back() override {

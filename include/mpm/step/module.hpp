@@ -19,6 +19,8 @@
 
 namespace mpm {
 
+class RigidBody;
+
 /// Momentum given to the material from outside since the start [N s], under one name.
 struct ImpulseAccount {
   std::string name;
@@ -91,6 +93,8 @@ class Module {
   /// Called at the end of a sync period; `time` [ns]. @throws Error when a body is at a forbidden place
   virtual void at_sync(std::int64_t /*time*/) {}
 
+  /// Called between two steps when a rigid body has been put elsewhere: what the module remembers of it is of no use.
+  virtual void body_put(const RigidBody&) {}
   /// Called before particles are sorted: the last chance to move them or to choose their velocity fields.
   virtual void before_sort() {}
   /// True if particles have to be sorted after this step.

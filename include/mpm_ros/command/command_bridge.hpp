@@ -21,12 +21,13 @@ namespace mpm_ros {
 
 class CommandBridge {
  public:
-  /// Subscribes at once, on the node handle's callback queue. `frames`: the tf frame that each body follows, or empty.
+  /// Subscribes at once, on the node handle's callback queue. `bodies`: names, of which the last `bases` are robots
+  /// whose base moves. `frames`: the tf frame that each follows, or empty.
   /// `queue` and `health` must outlive it.
   /// `latest_frames`, `latest_commands`: stamps of transforms, and of messages on topics, are not used.
-  CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies, const std::vector<std::string>& frames,
-                const std::string& world_frame, CommandQueue& queue, NodeHealth& health, bool latest_frames,
-                bool latest_commands);
+  CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies, std::size_t bases,
+                const std::vector<std::string>& frames, const std::string& world_frame, CommandQueue& queue,
+                NodeHealth& health, bool latest_frames, bool latest_commands);
 
   CommandReader& reader() { return reader_; }
   const CommandReader& reader() const { return reader_; }
@@ -51,10 +52,12 @@ class CommandBridge {
   void subscribe(ros::NodeHandle& node, int body, const char* leaf, Taking take);
   /// True if commands are heard on the topic.
   bool commanded_on(const std::string& topic) const;
+  /// Name of the body, or of the robot whose base is meant, that such a topic is for.
+  std::optional<std::string> whom(const std::string& topic) const;
   void listen(ros::NodeHandle& node, const char* topic, bool fixed);
   void hear(const tf2_msgs::TFMessage& message, const std::string& sender, bool fixed);
 
-  const std::string prefix_;  // prefix of body topics, resolved
+  const std::string prefix_, robots_prefix_;  // prefixes of topics of bodies and of robots, resolved
   NodeHealth& health_;
   tf2::BufferCore frames_;
   ros::Time heard_;  // by the clock, when a transform came last

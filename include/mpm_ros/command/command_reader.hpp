@@ -29,7 +29,7 @@ namespace mpm_ros {
 class CommandReader {
  public:
   /// `prefix`: of the bodies' topics, as refusals name them. What is given by reference must outlive it.
-  CommandReader(std::vector<std::string> bodies, std::string world_frame, std::string prefix,
+  CommandReader(std::vector<std::string> bodies, std::string world_frame, const std::string& prefix,
                 const tf2::BufferCore& frames, CommandQueue& queue, NodeHealth& health);
 
   /// The run began (again): what stamps mean from now on. No message is being read by the old ones when it returns.
@@ -37,6 +37,10 @@ class CommandReader {
 
   /// The body follows a tf frame: commands from elsewhere are refused, with the reason.
   void set_frame(int body, const std::string& frame) { followed_.at(body) = frame; }
+  /// A body whose topics lie elsewhere than below its name.
+  void set_below(int body, std::string below) { below_.at(body) = std::move(below); }
+  /// The topic of its commands with this last name.
+  std::string topic(int body, const std::string& leaf) const { return below_.at(body) + "/" + leaf; }
   /// Reads the place of that frame, as a message on cmd_pose; not `by_stamp`: as one without a stamp. Any thread.
   void follow(int body, const geometry_msgs::PoseStamped& message, bool by_stamp = true);
   /// Applies what comes on topics as it comes, whatever its stamp, which is recorded. Before any message is taken.
@@ -67,6 +71,8 @@ class CommandReader {
   /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
   BodyCommand read(const mpm_ros::Command& message, std::string& problem) const;
 
+  /// Reason why the body takes no commands, or empty.
+  std::string refusal_of(int body) const;
   const std::vector<std::string>& bodies() const { return bodies_; }
   /// -1 when there is none.
   int find_body(const std::string& name) const;
@@ -85,14 +91,12 @@ class CommandReader {
   std::string too_far_ahead(std::int64_t stamp) const;
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
   void count_missing(int body, const char* leaf, const std::string& sender, const std_msgs::Header& header);
-  /// Reason why the body takes no commands, or empty.
-  std::string refusal_of(int body) const;
   /// Pose of a frame in the world, or the body whose frame it is.
   mpm::Pose find_frame(const std::string& frame, const ros::Time& stamp, int& body, std::string& problem) const;
 
   const std::vector<std::string> bodies_;
   const std::string world_frame_;
-  const std::string prefix_;
+  std::vector<std::string> below_;  // namespace of each body's topics of commands
   const tf2::BufferCore& frames_;
   CommandQueue& queue_;
   NodeHealth& health_;

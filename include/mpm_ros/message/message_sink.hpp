@@ -12,6 +12,7 @@
 #include <mpm_ros/RobotStates.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
+#include <mpm_ros/StateSet.h>
 #include <mpm_ros/Volumes.h>
 #include <ros/time.h>
 #include <sensor_msgs/Image.h>
@@ -48,6 +49,7 @@ class MessageSink {
   virtual void put(const std::string&, const ros::Time&, const RobotStates&) {}
   virtual void put(const std::string&, const ros::Time&, const Command&) {}
   virtual void put(const std::string&, const ros::Time&, const JointCommand&) {}
+  virtual void put(const std::string&, const ros::Time&, const StateSet&) {}
   virtual void put(const std::string&, const ros::Time&, const HeightMap&) {}
   virtual void put(const std::string&, const ros::Time&, const Volumes&) {}
   virtual void put(const std::string&, const ros::Time&, const sensor_msgs::Image&) {}

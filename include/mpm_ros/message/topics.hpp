@@ -14,6 +14,7 @@ constexpr const char* kJointStates = "joint_states";  ///< joints of each robot
 constexpr const char* kJointCommand = "joint_command";
 constexpr const char* kJointTrajectory = "joint_trajectory";
 constexpr const char* kJointCommands = "joint_commands";  ///< as they were applied
+constexpr const char* kStatesSet = "states_set";          ///< by the service set_state
 constexpr const char* kCommands = "commands";
 constexpr const char* kSolverState = "solver_state";
 constexpr const char* kGlobalQuantities = "global_quantities";
@@ -34,12 +35,17 @@ constexpr const char* kPause = "pause";
 constexpr const char* kReset = "reset";
 constexpr const char* kResetWith = "reset_with";
 constexpr const char* kStep = "step";
+constexpr const char* kSetState = "set_state";
 constexpr const char* kSaveCheckpoint = "save_checkpoint";
 constexpr const char* kLoadCheckpoint = "load_checkpoint";
 
 /// `robots/<name>/<leaf>`
 inline std::string of_robot(const std::string& robot, const std::string& leaf) {
   return std::string(kRobots) + "/" + robot + "/" + leaf;
+}
+/// `robots/<name>/base/<leaf>`, of a base that moves
+inline std::string of_base(const std::string& robot, const std::string& leaf) {
+  return of_robot(robot, "base/" + leaf);
 }
 /// True for a robot's link, whose name as a rigid body is `<robot>/<link>`.
 inline bool is_link(const std::string& body) { return body.find('/') != std::string::npos; }
@@ -61,7 +67,8 @@ constexpr const char* kCmdWrenchStamped = "cmd_wrench_stamped";
 constexpr const char* kCmdPose = "cmd_pose";
 
 /// All services of the node.
-constexpr std::array<const char*, 6> kServices{kPause, kReset, kResetWith, kStep, kSaveCheckpoint, kLoadCheckpoint};
+constexpr std::array<const char*, 7> kServices{kPause,    kReset,          kResetWith,     kStep,
+                                               kSetState, kSaveCheckpoint, kLoadCheckpoint};
 
 /// Names that come after the body's on the topics of its commands.
 constexpr std::array<const char*, 6> kCommandLeaves{kCmdVel,    kCmdVelStamped,    kCmdVelBody,

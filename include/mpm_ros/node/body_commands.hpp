@@ -78,6 +78,8 @@ class BodyCommands {
   /// The commands of a request for a step of so many sync periods. `problem`: why they cannot be taken.
   StepCommands read(const std::vector<Command>& requested, const std::vector<JointCommand>& joints,
                     std::int64_t periods, const Run& run, std::string& problem) const;
+  /// Sets a state at the present sync point; a body then is on its way to nowhere. Returns why not, or empty.
+  std::string set_state(Run& run, const mpm::StateSet& state);
   /// From hold() on, what comes on topics waits for release().
   void hold() {
     memory_.queue.hold();

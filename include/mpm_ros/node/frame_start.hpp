@@ -16,8 +16,8 @@ struct FrameStart {
   std::string path;  ///< "rigid_bodies.tool0.pose"
 };
 
-/// The bodies with `drive` and without `pose`. Arguments as of mpm::load_scene(). @throws mpm::SceneError: the scene
-/// cannot be read
+/// The bodies, then the bases of robots, with `drive` and without `pose`. Arguments as of mpm::load_scene(). @throws
+/// mpm::SceneError: the scene cannot be read
 std::vector<FrameStart> frame_starts(const std::string& name_or_path, const std::vector<std::string>& overrides);
 
 /// The override that lets the body begin at a pose, which is one of the geometry.

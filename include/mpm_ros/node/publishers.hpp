@@ -54,6 +54,7 @@ class Publishers : public MessageSink {
   }
   void put(const std::string& topic, const ros::Time&, const Command& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const JointCommand& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const StateSet& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const HeightMap& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const Volumes& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::Image& m) override { at(topic).publish(m); }

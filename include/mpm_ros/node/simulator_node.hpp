@@ -8,6 +8,7 @@
 
 #include <mpm_ros/Checkpoint.h>
 #include <mpm_ros/Reset.h>
+#include <mpm_ros/SetState.h>
 #include <mpm_ros/Step.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -114,12 +115,14 @@ class SimulatorNode {
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_reset_with(Reset::Request& request, Reset::Response& response);
   bool on_step(Step::Request& request, Step::Response& response);
+  bool on_set_state(SetState::Request& request, SetState::Response& response);
   void pause(bool paused, std_srvs::SetBool::Response& response);
   /// Reason why a service did nothing, for its answer.
   static std::string refusal_of(const std::exception& error);
   /// Begins the subject from time zero. Returns what began; `success`: whether it did.
   std::string reset(const std::shared_ptr<const Subject>& subject, bool& success);
-  void reset_with(const std::vector<std::string>& set, Reset::Response& response);
+  void reset_with(const Reset::Request& request, Reset::Response& response);
+  void set_state(const SetState::Request& request, SetState::Response& response);
   void step(const Step::Request& request, Step::Response& response);
   /// Reason why a step cannot begin now, or empty.
   std::string step_refused() const;

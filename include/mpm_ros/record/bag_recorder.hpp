@@ -69,6 +69,7 @@ class BagRecorder : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::JointState& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const RobotStates& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const JointCommand& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const StateSet& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;

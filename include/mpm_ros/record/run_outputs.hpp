@@ -23,6 +23,7 @@
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/command/joint_command.hpp"
+#include "mpm_ros/command/set_state.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/message/local_frame.hpp"
 #include "mpm_ros/message/message_sink.hpp"
@@ -77,6 +78,8 @@ class RunOutputs {
   /// A command that was applied just now.
   void command(const AppliedCommand& command);
   void command(const JointOrder& order);
+  /// A state that was set just now.
+  void state_set(const mpm::StateSet& state);
   /// After each advance. `last`: the run ends here, so everything is written, with the state hash.
   /// `real_time_factor`: simulated over wall time so far.
   void sync(bool last, double real_time_factor);

@@ -14,6 +14,7 @@
 #include <mpm_ros/RobotStates.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
+#include <mpm_ros/StateSet.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -52,6 +53,7 @@ class RunVisitor {
   virtual void robots(std::int64_t time, const RobotStates& message) { unused(time, message); }
   virtual void command(std::int64_t time, const Command& message) { unused(time, message); }
   virtual void joint_command(std::int64_t time, const JointCommand& message) { unused(time, message); }
+  virtual void state_set(std::int64_t time, const StateSet& message) { unused(time, message); }
   /// A message on /clock, where that was recorded too.
   virtual void clock(std::int64_t time) { unused(time, 0); }
   /// Places are float64 in a scene that lies far from the origin.

@@ -21,6 +21,7 @@ struct Rerun {
   RunInfo info;
   std::vector<mpm_ros::Command> commands;
   std::vector<mpm_ros::JointCommand> joint_commands;
+  std::vector<mpm_ros::StateSet> states_set;
   std::int64_t end = 0;            ///< [ns] simulated time of the last state recorded
   std::string state_hash;          ///< hash of the last state that was recorded with one; empty: none was
   std::int64_t hashed_at = 0;      ///< [ns] its time

@@ -58,6 +58,9 @@ class Run {
   void apply(const AppliedCommand& command);
   /// The same of a command to joints; `again`: one that was recorded as it was applied.
   void apply(const JointOrder& order, bool again = false);
+  /// Sets the state of a body or a robot at the present sync point, and writes it. @throws mpm::RigidError; then
+  /// nothing is changed.
+  void set_state(const mpm::StateSet& state);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
   /// @throws mpm::StoppedError; finish() then ends the record with the sync point before. `late`: as in
   /// mpm::Simulation::advance().

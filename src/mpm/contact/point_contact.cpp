@@ -268,6 +268,12 @@ ContactLedger* PointContact::ledger_of(const RigidBody& body) {
   return found == ledgers_.end() ? nullptr : &*found;
 }
 
+void PointContact::body_put(const RigidBody& body) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b] == &body) memory_.forget(static_cast<int>(b));
+  }
+}
+
 void PointContact::serialise(StateArchive& archive) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const StateArchive::Group group(archive, "body_" + std::to_string(b));

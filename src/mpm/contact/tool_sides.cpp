@@ -57,6 +57,12 @@ void ToolSides::before_sort() {
   labelled_ = true;
 }
 
+void ToolSides::body_put(const RigidBody& body) {
+  if (find(body) == nullptr) return;
+  labelled_ = false;
+  travelled_ = std::numeric_limits<double>::infinity();
+}
+
 bool ToolSides::needs_sort() const { return travelled_ > kTravel * layout_.smallest_cell(); }
 
 bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const {

@@ -87,6 +87,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   void step_ended() override { sorts_ = tools_.put_out(sets_, grid_); }
   bool needs_sort() const override { return sorts_; }
+  void body_put(const RigidBody& body) override { tools_.forget(body); }
 
   void momentum_updated(StepContext& context) override {
     timed("implicit: particles to cells", [&] {

@@ -348,11 +348,21 @@ void ToolRows<T>::add_to_held(HeldImpulses& held) const {
 }
 
 template <class T>
-void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
-  for (Kept& kept : kept_) {
-    std::fill(kept.force.begin(), kept.force.end(), 0.0);
-    std::fill(kept.own.begin(), kept.own.end(), 0.0);
+void ToolRows<T>::Kept::clear() {
+  std::fill(force.begin(), force.end(), 0.0);
+  std::fill(own.begin(), own.end(), 0.0);
+}
+
+template <class T>
+void ToolRows<T>::forget(const RigidBody& body) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b] == &body) kept_[b].clear();
   }
+}
+
+template <class T>
+void ToolRows<T>::finish(const std::vector<Node>& nodes, double dt) {
+  for (Kept& kept : kept_) kept.clear();
   std::vector<int>& touched = next_;
   touched.assign(bodies_.size(), 0);
   areas_.assign(bodies_.size(), 0.0);

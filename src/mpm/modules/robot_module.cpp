@@ -34,6 +34,7 @@ class RobotModule final : public Module {
       report.add("robot_drive", NamedEnergy::Kind::at_bodies, of.drive);
       report.add("robot_joints", NamedEnergy::Kind::at_bodies, of.damping + of.friction + of.limit);
       report.add("robot_loss", NamedEnergy::Kind::at_bodies, of.loss);
+      if (of.set != 0.0) report.add("robot_set", NamedEnergy::Kind::at_bodies, of.set);
     }
   }
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override {
@@ -50,6 +51,9 @@ class RobotModule final : public Module {
       own.dt = period.reach() / own.speed;
       if (own.speed > 0.0) limit.tighten(own);
     }
+  }
+  void at_sync(std::int64_t time) override {
+    for (const auto& robot : robots_) robot->at_sync(time);
   }
   std::string limit_text(const StepLimit& limit) const override {
     return fmt::format("speed of '{}' ({:.4g} m/s)", links_[limit.part].body->name(), limit.speed);

@@ -94,11 +94,26 @@ Mat3 FreeMotion::lift_of(const Mat3& inertia) const {
 }
 
 void FreeMotion::start(const Pose& pose, const Twist& twist) {
+  begin_at(pose, twist);
+  account_.initial_momentum = momentum();
+}
+
+void FreeMotion::begin_at(const Pose& pose, const Twist& twist) {
   centre_ = pose.to_world(definition_.centre);
   rate_ = twist.angular;
   velocity_ = twist.linear + rate_.cross(centre_ - pose.position);
   inertia_ = inertia_at(pose.orientation);
-  account_.initial_momentum = momentum();
+}
+
+void FreeMotion::put(const Pose& pose, const Twist& twist, const Vec3& gravity) {
+  const FreeBodyReport before = report({}, gravity);
+  begin_at(pose, twist);
+  start_velocity_ = velocity_;
+  start_rate_ = rate_;
+  const FreeBodyReport now = report({}, gravity);
+  account_.set.linear += now.momentum.linear - before.momentum.linear;
+  account_.set.angular += now.momentum.angular - before.momentum.angular;
+  account_.set_work += now.kinetic + now.potential - before.kinetic - before.potential;
 }
 
 void FreeMotion::place(const Pose& pose) {

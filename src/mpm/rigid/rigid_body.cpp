@@ -17,9 +17,10 @@ std::string text_of(const Vec3& v) {
   return text.str();
 }
 
-/// The pose with its quaternion at unit length. @throws RigidError
-Pose checked(const Pose& pose, const std::string& body, const std::string& what) {
-  const std::string start = "rigid body '" + body + "': " + what + ": ";
+}  // namespace
+
+Pose checked_pose(const Pose& pose, const std::string& what) {
+  const std::string start = what + ": ";
   if (!pose.position.allFinite()) throw RigidError(start + "position " + text_of(pose.position) + " is not finite");
   if (!pose.orientation.coeffs().allFinite()) throw RigidError(start + "orientation is not finite");
   const double length = pose.orientation.norm();
@@ -30,8 +31,6 @@ Pose checked(const Pose& pose, const std::string& body, const std::string& what)
   }
   return {pose.position, pose.orientation.normalized()};
 }
-
-}  // namespace
 
 RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(definition)) {
   const std::string start = "rigid body '" + definition_.name + "': ";
@@ -48,7 +47,7 @@ RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(def
     text << start << "inner radius is " << definition_.inner_radius << " m; it must be finite and not negative";
     throw RigidError(text.str());
   }
-  definition_.pose = checked(definition_.pose, definition_.name, "initial pose");
+  definition_.pose = checked_pose(definition_.pose, start + "initial pose");
   if (definition_.inner_radius > 0.0) motion_ = RingMotion(definition_.inner_radius, definition_.outer_radius);
   check(definition_.pose, "initial pose");
   pose_ = definition_.pose;
@@ -91,7 +90,7 @@ void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t 
   if (const std::string reason = motion().refused_pose(); !reason.empty()) {
     throw RigidError("rigid body '" + name() + "': " + reason);
   }
-  const Pose goal = checked(target, name(), "pose command");
+  const Pose goal = checked_pose(target, "rigid body '" + name() + "': pose command");
   if (arrival <= now) {
     throw RigidError("rigid body '" + name() + "': pose command arrives at " + std::to_string(arrival) +
                      " ns, not after the present " + std::to_string(now) + " ns");
@@ -101,6 +100,25 @@ void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t 
   arrival_ = arrival;
   twist_ = twist_between(pose_, target_, seconds_of(arrival - now));
   drive_ = Drive::pose;
+}
+
+void RigidBody::set_state(const Pose& pose, const Twist& twist, const Vec3& gravity) {
+  const std::string start = "rigid body '" + name() + "': ";
+  const Pose goal = checked_pose(pose, start + "the pose that is set");
+  check(goal, "the pose that is set");
+  if (!twist.linear.allFinite() || !twist.angular.allFinite()) throw RigidError(start + "the twist is not finite");
+  FreeMotion* free = free_motion();
+  if (free == nullptr && !(twist.linear.isZero(0.0) && twist.angular.isZero(0.0))) {
+    throw RigidError(start + "it moves as is prescribed, and its velocity is commanded; leave the twist out");
+  }
+  pose_ = goal;
+  if (free != nullptr) {
+    twist_ = motion().merged(twist, twist_);
+    free->put(pose_, twist_, gravity);
+  } else if (drive_ == Drive::pose) {
+    twist_ = {};
+    drive_ = Drive::velocity;
+  }
 }
 
 Twist RigidBody::twist_at(double time) const {

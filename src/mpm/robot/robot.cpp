@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/robot/poses.hpp"
+
 namespace mpm {
 namespace {
 
-constexpr int kBiasRounds = 3;      ///< each gains a factor of a step's angle
-constexpr double kRateStep = 1e-6;  ///< [s] over which the rate of a target is taken for the limit of the step
-
-/// Twist of a body, in its own axes, as world twist, and back. Rotation first.
-LinkMotion::Vec6 to_vec6(const Vec3& rotation, const Vec3& translation) {
-  LinkMotion::Vec6 twist;
-  twist << rotation, translation;
-  return twist;
-}
+constexpr int kBiasRounds = 3;       ///< each gains a factor of a step's angle
+constexpr double kLeastReach = 0.1;  ///< [m] of links from the base, in commands of this
 
 }  // namespace
 
@@ -60,6 +55,7 @@ Robot::Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector
   sensed_.resize(definition_.sensors.size());
   sensed_sum_.resize(definition_.sensors.size());
   find_parts();
+  if (definition_.base.kind == BaseKind::moving) base_motion_ = make_base_motion();
   links_.reserve(definition_.contacts.size());
   for (const LinkContact& contact : definition_.contacts) {
     const auto body = std::find_if(bodies.begin(), bodies.end(),
@@ -75,14 +71,23 @@ Robot::Robot(const RobotDefinition& definition, const Vec3& gravity, std::vector
     link.reach = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).norm();
     links_.push_back(std::move(link));
   }
-  full_positions();
-  engine_->set_positions(base_, full_positions_);
-  reduce_mass();
-  for (Link& link : links_) {
-    link.motion = &link.body->join(*this, response_, engine_->pose(link.link));
-    find_jacobian(link.link, link.jacobian);
-  }
+  find_places();
+  for (Link& link : links_) link.motion = &link.body->join(*this, response_, engine_->pose(link.link));
   energies_.potential = engine_->potential();
+}
+
+// Commands ask of a body how far it reaches, so that one that turns it too fast can be refused.
+std::unique_ptr<RigidBody> Robot::make_base_motion() const {
+  double reach = kLeastReach;
+  const std::vector<Pose> poses = start_poses(definition_);
+  for (const Pose& pose : poses) reach = std::max(reach, (pose.position - base_.position).norm());
+  RigidBodyDefinition motion;
+  motion.name = definition_.name;
+  motion.surface = make_sphere(reach);
+  motion.pose = base_;
+  motion.velocity = definition_.base.velocity;
+  motion.rotation_rate = definition_.base.rotation_rate;
+  return std::make_unique<RigidBody>(std::move(motion));
 }
 
 std::string Robot::joint_text(std::size_t joint) const {
@@ -137,6 +142,13 @@ void Robot::find_jacobian(int link, Eigen::MatrixXd& into) {
   }
 }
 
+void Robot::find_places() {
+  full_positions();
+  engine_->set_positions(base_, full_positions_);
+  reduce_mass();
+  for (Link& link : links_) find_jacobian(link.link, link.jacobian);
+}
+
 const Eigen::VectorXd& Robot::reduced_bias(const Eigen::VectorXd& velocities) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     full_velocities_[static_cast<Eigen::Index>(i)] = parts_[i].factor * velocities[parts_[i].freedom];
@@ -149,80 +161,19 @@ const Eigen::VectorXd& Robot::reduced_bias(const Eigen::VectorXd& velocities) {
   return bias_;
 }
 
-JointActions Robot::actions_of(std::size_t place, double time) const {
-  const JointDefinition& joint = definition_.joints[place];
-  const ModelJoint& model = definition_.model.joints[joint.joint];
-  const double position = positions_[static_cast<Eigen::Index>(place)];
-  const JointTarget& target = targets_[place];
-  JointActions actions;
-  actions.damping = model.damping;
-  actions.friction = model.friction;
-  actions.limit = joint.effort.value_or(model.effort);
-  actions.least = (model.lower - position) / dt_;
-  actions.most = (model.upper - position) / dt_;
-  for (const ModelJoint& other : definition_.model.joints) {
-    if (!other.mimic || other.mimic->joint != joint.joint) continue;
-    const double factor = other.mimic->factor, at = factor * position + other.mimic->offset;
-    actions.damping += factor * factor * other.damping;
-    actions.friction += std::abs(factor) * other.friction;
-    if (factor == 0.0) continue;
-    const double low = (other.lower - at) / (factor * dt_), high = (other.upper - at) / (factor * dt_);
-    actions.least = std::max(actions.least, std::min(low, high));
-    actions.most = std::min(actions.most, std::max(low, high));
+const Eigen::VectorXd& Robot::merge_prescribed() {
+  mean_ = velocities_;
+  for (Eigen::Index i = 0; i < velocities_.size(); ++i) {
+    if (solution_.is_prescribed(static_cast<int>(i))) mean_[i] = solution_.velocities()[i];
   }
-  const double middle = time + 0.5 * dt_, end = time + dt_;
-  switch (joint.drive) {
-    case JointDrive::effort:
-      actions.effort = target.at(middle);
-      break;
-    case JointDrive::velocity:
-      actions.target = std::clamp(target.at(middle), -model.speed, model.speed);
-      if (joint.damping > 0.0) {
-        actions.drive = JointActions::Drive::spring;
-        actions.at_rest = joint.damping * actions.target;
-        actions.slope = joint.damping;
-      } else {
-        actions.drive = JointActions::Drive::rigid;
-      }
-      break;
-    case JointDrive::position:
-      if (joint.stiffness > 0.0) {
-        actions.drive = JointActions::Drive::spring;
-        actions.at_rest = joint.stiffness * (target.at(end) - position) + joint.damping * target.rate(end, dt_);
-        actions.slope = joint.stiffness * dt_ + joint.damping;
-      } else {
-        actions.drive = JointActions::Drive::rigid;
-        actions.target = std::clamp((target.at(end) - position) / dt_, -model.speed, model.speed);
-      }
-      break;
-  }
-  return actions;
-}
-
-void Robot::set_laws(double time) {
-  std::vector<JointLaw>& laws = solution_.laws();
-  const int base = base_freedoms();
-  if (definition_.base.kind == BaseKind::moving) {
-    const double middle = time + 0.5 * dt_;
-    for (int k = 0; k < 3; ++k) {
-      base_twist_.linear[k] = definition_.base.velocity[k](middle);
-      base_twist_.angular[k] = definition_.base.rotation_rate[k](middle);
-    }
-    const Quat back = base_.orientation.conjugate();
-    const LinkMotion::Vec6 twist = to_vec6(back * base_twist_.angular, back * base_twist_.linear);
-    for (int k = 0; k < 6; ++k) laws[k] = JointLaw::prescribed(twist[k]);
-  }
-  for (std::size_t j = 0; j < definition_.joints.size(); ++j) {
-    laws[base + j] = JointLaw(actions_of(j, time), dt_);
-    const bool position = definition_.joints[j].drive == JointDrive::position;
-    last_targets_[j] = targets_[j].at(position ? time + dt_ : time + 0.5 * dt_);
-  }
+  return mean_;
 }
 
 void Robot::begin_step(double time, double dt) {
   time_ = time;
   dt_ = dt;
   predicted_ = false;
+  if (base_motion_ != nullptr) base_motion_->begin_step(time, dt);
   // Mass matrix and Jacobians are those that move() found where the robot is.
   set_laws(time);
   try {
@@ -248,11 +199,7 @@ void Robot::begin_step(double time, double dt) {
   }
   find_response();
   // The twist of the step, for a link that nothing moves but what is prescribed.
-  mean_ = velocities_;
-  for (Eigen::Index i = 0; i < velocities_.size(); ++i) {
-    if (solution_.is_prescribed(static_cast<int>(i))) mean_[i] = solution_.velocities()[i];
-  }
-  tell_links(mean_);
+  tell_links(merge_prescribed());
   for (Link& link : links_) link.body->set_twist(link.motion->twist(link.body->pose()));
 }
 
@@ -298,11 +245,7 @@ void Robot::begin_trial() {
     link.kept = link.motion->velocity();
     link.pushed = link.motion->pushed();
   }
-  mean_ = velocities_;
-  for (Eigen::Index i = 0; i < velocities_.size(); ++i) {
-    if (solution_.is_prescribed(static_cast<int>(i))) mean_[i] = solution_.velocities()[i];
-  }
-  tell_links(mean_);
+  tell_links(merge_prescribed());
 }
 
 void Robot::end_trial() {
@@ -396,19 +339,30 @@ void Robot::read_sensors() {
     wrenches_.push_back(link.motion->taken() / dt_);
   }
   for (std::size_t s = 0; s < sensed_.size(); ++s) {
+    const SensorDefinition& sensor = definition_.sensors[s];
     const LinkMotion::Vec6 wrench =
-        engine_->joint_wrench(definition_.sensors[s], full_velocities_, accelerations_, link_numbers_, wrenches_);
+        engine_->joint_wrench(sensor.joint, full_velocities_, accelerations_, link_numbers_, wrenches_, sensor.gravity);
     sensed_[s] = {wrench.tail<3>(), wrench.head<3>()};
     sensed_sum_[s].force += dt_ * sensed_[s].force;
     sensed_sum_[s].torque += dt_ * sensed_[s].torque;
   }
 }
 
+void Robot::at_sync(std::int64_t now) {
+  if (base_motion_ == nullptr) return;
+  base_motion_->at_sync(now);
+  const Pose& pose = base_motion_->pose();
+  if (pose.position == base_.position && pose.orientation.coeffs() == base_.orientation.coeffs()) return;
+  base_ = pose;
+  put_links();
+}
+
 void Robot::move() {
   const int base = base_freedoms();
   positions_ += dt_ * velocities_.tail(positions_.size());
-  if (definition_.base.kind == BaseKind::moving) {
-    base_ = integrate(base_, base_twist_, dt_);
+  if (base_motion_ != nullptr) {
+    base_motion_->end_step(dt_);
+    base_ = base_motion_->pose();
   } else if (base > 0) {
     const Vec3 rate = velocities_.head<3>(), velocity = velocities_.segment<3>(3);
     const Quat half =
@@ -421,55 +375,14 @@ void Robot::move() {
     double& position = positions_[static_cast<Eigen::Index>(j)];
     position = std::clamp(position, model.lower, model.upper);
   }
-  full_positions();
-  engine_->set_positions(base_, full_positions_);
-  reduce_mass();
+  find_places();
   energies_.kinetic = 0.5 * velocities_.dot(mass_ * velocities_);
   energies_.potential = engine_->potential();
   for (Link& link : links_) {
-    find_jacobian(link.link, link.jacobian);
     const LinkMotion::Vec6 twist = link.jacobian * velocities_, change = twist - link.jacobian * start_velocities_;
     link.motion->set_acceleration((change.tail<3>().norm() + link.reach * change.head<3>().norm()) / dt_);
     link.motion->set_next(engine_->pose(link.link), {twist.tail<3>(), twist.head<3>()});
   }
-}
-
-double Robot::largest_speed(std::size_t contact, double start, double ahead, double period) const {
-  const Link& link = links_[contact];
-  const int base = base_freedoms();
-  double speed = 0.0;
-  // Joints may turn either way: one does not cancel another.
-  const auto add = [&](Eigen::Index freedom, double velocity) {
-    const auto column = link.jacobian.col(freedom);
-    speed += std::abs(velocity) * (column.tail<3>().norm() + link.reach * column.head<3>().norm());
-  };
-  for (std::size_t j = 0; j < definition_.joints.size(); ++j) {
-    const JointDefinition& joint = definition_.joints[j];
-    const double most = definition_.model.joints[joint.joint].speed;
-    double wanted = 0.0;
-    if (joint.drive == JointDrive::velocity) wanted = targets_[j].at(start + ahead);
-    if (joint.drive == JointDrive::position) {
-      const double way = targets_[j].at(start + ahead) - positions_[static_cast<Eigen::Index>(j)];
-      wanted = joint.stiffness > 0.0 ? targets_[j].rate(start + std::max(ahead, kRateStep), kRateStep)
-                                     : way / std::max(ahead, period);
-    }
-    const Eigen::Index freedom = base + static_cast<Eigen::Index>(j);
-    add(freedom, std::max(std::abs(velocities_[freedom]), std::min(std::abs(wanted), most)));
-  }
-  Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
-  if (definition_.base.kind == BaseKind::moving) {
-    Vec3 linear, angular;
-    for (int k = 0; k < 3; ++k) {
-      linear[k] = definition_.base.velocity[k](start + ahead);
-      angular[k] = definition_.base.rotation_rate[k](start + ahead);
-    }
-    const Quat back = base_.orientation.conjugate();
-    twist = to_vec6(back * angular, back * linear);
-  } else if (base > 0) {
-    twist = velocities_.head<6>();
-  }
-  for (int k = 0; k < base; ++k) add(k, twist[k]);
-  return speed;
 }
 
 }  // namespace mpm

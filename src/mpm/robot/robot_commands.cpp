@@ -123,7 +123,7 @@ RobotReport Robot::report() const {
     report.joints.push_back(one);
   }
   for (std::size_t s = 0; s < sensed_.size(); ++s) {
-    const int joint = definition_.sensors[s];
+    const int joint = definition_.sensors[s].joint;
     report.sensors.push_back(
         {definition_.model.joints[joint].name, definition_.model.links[joint + 1].name, sensed_[s], sensed_sum_[s]});
   }
@@ -151,7 +151,7 @@ void Robot::serialise(StateArchive& archive) {
     archive.value("torque_sum", sensed_sum_[s].torque);
   }
   for (double* energy : {&energies_.kinetic, &energies_.potential, &energies_.drive, &energies_.damping,
-                         &energies_.friction, &energies_.limit, &energies_.contact, &energies_.loss}) {
+                         &energies_.friction, &energies_.limit, &energies_.contact, &energies_.loss, &energies_.set}) {
     archive.value("energy_" + std::to_string(energy - &energies_.kinetic), *energy);
   }
   archive.list("targets", last_targets_);
@@ -161,11 +161,11 @@ void Robot::serialise(StateArchive& archive) {
   for (std::size_t l = 0; l < links_.size(); ++l) links_[l].motion->set_acceleration(accelerations.at(l));
   archive.value("time", time_);
   archive.value("dt", dt_);
-  // Mass matrix and Jacobians, with which the next step and its limit begin, follow from positions.
-  full_positions();
-  engine_->set_positions(base_, full_positions_);
-  reduce_mass();
-  for (Link& link : links_) find_jacobian(link.link, link.jacobian);
+  if (base_motion_ != nullptr) {
+    const StateArchive::Group group(archive, "base_motion");
+    base_motion_->serialise(archive);
+  }
+  find_places();
 }
 
 void Robot::hashed(std::vector<double>& numbers) const {

@@ -10,7 +10,7 @@ const KeyTable<RobotDefinition>& robot_keys() {
                  other<Robot>("urdf", "path",
                               {kRequired, "URDF file, xacro expanded; package://, file:// or from the scene's folder",
                                "package://my_robot/urdf/digger.urdf"}),
-                 other<Robot>("base", "`fixed`, `free` or a map",
+                 other<Robot>("base", "`fixed`, `free`, `moving` or a map",
                               {"`fixed`, at the origin", "how the first link is held", "free"}),
                  other<Robot>(
                      "links", "map of links",
@@ -24,7 +24,7 @@ const KeyTable<RobotDefinition>& robot_keys() {
                  other<Robot>("joints", "map of joints",
                               {"without a drive", "drives of joints", "{boom: {drive: velocity}}"}),
                  other<Robot>(
-                     "sensors", "list of joints",
+                     "sensors", "list or map of joints",
                      {"none", "joints whose wrench is reported, as a force-torque sensor there reads it", "[wrist]"})})
           .advise({{"file", "write urdf"},
                    {"pose", "write it in base: {pose: …}"},
@@ -41,7 +41,21 @@ const KeyTable<BaseDefinition>& base_keys() {
                  other<Base>("pose", "pose",
                              {"the origin", "of the base at the start, as of a rigid body", "{position: [0, 0, 0.5]}"}),
                  other<Base>("motion", "motion",
-                             {"none", "prescribed motion, as of a rigid body", "{velocity: [0.1, 0, 0]}"})});
+                             {"none", "prescribed motion, as of a rigid body, until a command comes",
+                              "{velocity: [0.1, 0, 0]}"}),
+                 other<Base>("drive", "`tf` or `{tf: frame}`",
+                             {"commands on topics", "tf frame that a moving base follows; `tf`: of the robot's name",
+                              "{tf: base_link}"}),
+                 other<Base>("limits", "map",
+                             {"none", "limits of commanded motion, as of a rigid body", "{speed: 0.5}"})});
+  return keys;
+}
+
+const KeyTable<SensorDefinition>& sensor_keys() {
+  static const auto keys = KeyTable<SensorDefinition>("robots.sensors")
+                               .rows({plain("gravity", &SensorDefinition::gravity,
+                                            {"", "whether the weight of what hangs on the sensor is in it", "false"})})
+                               .advise({{"tare", "write gravity: false"}});
   return keys;
 }
 

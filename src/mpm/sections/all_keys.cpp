@@ -33,19 +33,31 @@ std::vector<KeySection> make_sections() {
   each_law([&](const auto& law) {
     sections.push_back(section_of(law_keys<std::decay_t<decltype(law)>>(), "scene/materials.md"));
   });
-  const std::vector<KeySection> others = {
-      section_of(body_keys(), "scene/bodies.md"),      section_of(rigid_body_keys(), "rigid_bodies.md"),
-      section_of(geostatic_keys(), "scene/bodies.md"), section_of(free_keys(), "free_bodies.md"),
-      section_of(collide_keys(), "free_bodies.md"),    section_of(limit_keys(), "rigid_bodies.md"),
-      section_of(robot_keys(), "robots.md"),           section_of(base_keys(), "robots.md"),
-      section_of(joint_keys(), "robots.md"),           section_of(contact_law_keys(), "scene/contact.md"),
-      section_of(contact_keys(), "scene/contact.md"),  section_of(quantity_keys(), "transport.md"),
-      section_of(heat_keys(), "transport.md"),         section_of(tool_heat_keys(), "transport.md"),
-      section_of(cracks_keys(), "scene/cracks.md"),    section_of(crack_keys(), "scene/cracks.md"),
-      section_of(face_keys(), "scene/cracks.md"),      section_of(contour_keys(), "scene/cracks.md"),
-      section_of(growth_keys(), "scene/cracks.md"),    section_of(traction_law_keys(), "scene/cracks.md"),
-      section_of(fracture_keys(), "scene/cracks.md"),  section_of(sleep_keys(), "scene/sleep.md"),
-      section_of(output_keys(), "scene/output.md"),    section_of(pace::target_keys(), "scene/target.md")};
+  const std::vector<KeySection> others = {section_of(body_keys(), "scene/bodies.md"),
+                                          section_of(rigid_body_keys(), "rigid_bodies.md"),
+                                          section_of(geostatic_keys(), "scene/bodies.md"),
+                                          section_of(free_keys(), "free_bodies.md"),
+                                          section_of(collide_keys(), "free_bodies.md"),
+                                          section_of(limit_keys(), "rigid_bodies.md"),
+                                          section_of(robot_keys(), "robots.md"),
+                                          section_of(base_keys(), "robots.md"),
+                                          section_of(joint_keys(), "robots.md"),
+                                          section_of(sensor_keys(), "robots.md"),
+                                          section_of(contact_law_keys(), "scene/contact.md"),
+                                          section_of(contact_keys(), "scene/contact.md"),
+                                          section_of(quantity_keys(), "transport.md"),
+                                          section_of(heat_keys(), "transport.md"),
+                                          section_of(tool_heat_keys(), "transport.md"),
+                                          section_of(cracks_keys(), "scene/cracks.md"),
+                                          section_of(crack_keys(), "scene/cracks.md"),
+                                          section_of(face_keys(), "scene/cracks.md"),
+                                          section_of(contour_keys(), "scene/cracks.md"),
+                                          section_of(growth_keys(), "scene/cracks.md"),
+                                          section_of(traction_law_keys(), "scene/cracks.md"),
+                                          section_of(fracture_keys(), "scene/cracks.md"),
+                                          section_of(sleep_keys(), "scene/sleep.md"),
+                                          section_of(output_keys(), "scene/output.md"),
+                                          section_of(pace::target_keys(), "scene/target.md")};
   sections.insert(sections.end(), others.begin(), others.end());
   sections.push_back(section_of(ground_keys(), "scene/output.md"));
   sections.push_back(section_of(volume_keys(), "scene/volumes.md"));

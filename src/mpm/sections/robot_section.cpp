@@ -43,10 +43,11 @@ std::vector<std::string> keys_of(const Value& value, const char* what) {
   return names;
 }
 
-BaseDefinition read_base(const Value& value, Scene& scene) {
+/// `commands`: of a base that moves.
+BaseDefinition read_base(const Value& value, const std::string& name, Scene& scene, CommandDefinition& commands) {
   BaseDefinition base;
   if (value.is_text()) {
-    base.kind = static_cast<BaseKind>(value.choice({"fixed", "free"}));
+    base.kind = static_cast<BaseKind>(value.choice({"fixed", "free", "moving"}));
     return base;
   }
   const Map map = read_keys(value, base_keys(), base);
@@ -61,6 +62,13 @@ BaseDefinition read_base(const Value& value, Scene& scene) {
     base.velocity = moved.velocity;
     base.rotation_rate = moved.rotation_rate;
   }
+  const auto drive = map.find("drive"), limits = map.find("limits");
+  if ((drive || limits) && base.kind != BaseKind::moving) {
+    (drive ? *drive : *limits).fail("it is of a base that moves; write kind: moving, or leave it out");
+  }
+  if (drive && motion) drive->fail("a base follows motion or a frame, not both; leave one out");
+  if (drive) commands.frame = read_frame(*drive, name);
+  if (limits) read_limits(*limits, commands.limits);
   return base;
 }
 
@@ -243,15 +251,22 @@ void read_links(const Map& map, const std::string& path, const FrictionLaw& fric
 void read_sensors(const Map& map, RobotDefinition& robot) {
   const auto sensors = map.find("sensors");
   if (!sensors) return;
-  for (const Value& value : sensors->elements()) {
-    const std::string name = value.text();
+  const auto add = [&](const Value& value, const std::string& name) -> SensorDefinition& {
     const int joint = robot.model.find_joint(name);
     if (joint < 0) {
       value.fail(fmt::format("the robot has no joint '{}'; {}", name, suggest(name, names_of(robot.model.joints))));
     }
     check_name(value, name);
-    robot.sensors.push_back(joint);
+    return robot.sensors.emplace_back(SensorDefinition{joint});
+  };
+  if (sensors->is_map()) {
+    for (const std::string& name : keys_of(*sensors, "joints")) {
+      const Value value = sensors->child(sensors->node()[name], name);
+      read_keys(value, sensor_keys(), add(value, name));
+    }
+    return;
   }
+  for (const Value& value : sensors->elements()) add(value, value.text());
 }
 
 }  // namespace
@@ -262,6 +277,7 @@ void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene) {
   if (scene.definition.geometry != GeometryKind::solid) {
     section->fail("robots are of a solid scene; leave geometry out, or write rigid_bodies that move as its links do");
   }
+  std::vector<CommandDefinition> bases;  // come after those of all bodies, to which links belong
   for (const Value& value : section->elements()) {
     RobotDefinition robot;
     const Map map = read_keys(value, robot_keys(), robot);
@@ -280,7 +296,9 @@ void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene) {
     } catch (const RigidError& error) {
       urdf.fail(error.what());
     }
-    if (const auto base = map.find("base")) robot.base = read_base(*base, scene);
+    CommandDefinition commands;
+    if (const auto base = map.find("base")) robot.base = read_base(*base, robot.name, scene, commands);
+    if (robot.base.kind == BaseKind::moving) bases.push_back(commands);
     if (robot.base.kind == BaseKind::free && !robot.model.carries_mass(0)) {
       map.at("base").fail(
           fmt::format("the base is free, and its link '{}' has no mass or no moment of inertia; write <inertial> with "
@@ -293,6 +311,7 @@ void read_robots(const Map& root, const FrictionLaw& friction, Scene& scene) {
     read_sensors(map, robot);
     scene.definition.robots.push_back(std::move(robot));
   }
+  scene.commands.insert(scene.commands.end(), bases.begin(), bases.end());
 }
 
 }  // namespace mpm

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "mpm/ranks/agree.hpp"
 #include "mpm/ranks/of_all.hpp"
@@ -47,6 +48,11 @@ std::string known_to_fail(const SimulationDefinition& definition) {
     text += "take contact.normals: average, since 'own' keeps neither momentum nor energy; or ";
   }
   return text;
+}
+
+BodyState state_of(const RigidBody& body) {
+  const double mass = body.free_motion() != nullptr ? body.free_motion()->definition().mass : 0.0;
+  return {body.name(), body.pose(), body.twist(), body.drive(), mass};
 }
 
 }  // namespace
@@ -156,14 +162,31 @@ int Simulation::find_body(const std::string& name) const {
   return -1;
 }
 
+int Simulation::find_commanded(const std::string& name) const {
+  const std::vector<BodyState> all = commanded();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const BodyState& one) { return one.name == name; });
+  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
+RigidBody& Simulation::State::commanded(int index) {
+  auto place = static_cast<std::size_t>(index);
+  if (place < bodies.size()) return bodies[place];
+  place -= bodies.size();
+  for (const auto& robot : robots) {
+    RigidBody* base = robot->base_motion();
+    if (base != nullptr && place-- == 0) return *base;
+  }
+  throw std::out_of_range("no rigid body and no base of a robot has this index");
+}
+
 void Simulation::command_velocity(int body, const Twist& twist) {
-  state_->bodies.at(body).command_velocity(
-      projected(twist, state_->definition.geometry, state_->bodies.at(body).definition()));
+  RigidBody& of = state_->commanded(body);
+  of.command_velocity(projected(twist, state_->definition.geometry, of.definition()));
 }
 
 void Simulation::command_pose(int body, const Pose& target, std::int64_t arrival) {
-  const Pose applied = projected(target, state_->definition.geometry, state_->bodies.at(body).definition());
-  state_->bodies.at(body).command_pose(applied, state_->time, arrival);
+  RigidBody& of = state_->commanded(body);
+  of.command_pose(projected(target, state_->definition.geometry, of.definition()), state_->time, arrival);
 }
 
 void Simulation::apply_wrench(int body, const Wrench& wrench) {
@@ -173,7 +196,7 @@ void Simulation::apply_wrench(int body, const Wrench& wrench) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!turns_about(geometry, axis)) kept.torque[axis] = 0.0;
   }
-  state_->bodies.at(body).apply_wrench(kept);
+  state_->commanded(body).apply_wrench(kept);
 }
 
 std::vector<FreeBodyReport> Simulation::free_bodies() const {
@@ -223,14 +246,19 @@ void Simulation::follow_trajectory(int robot, const std::vector<int>& joints,
 
 std::vector<BodyState> Simulation::bodies() const {
   std::vector<BodyState> list;
-  for (const RigidBody& body : state_->bodies) {
-    const double mass = body.free_motion() != nullptr ? body.free_motion()->definition().mass : 0.0;
-    list.push_back({body.name(), body.pose(), body.twist(), body.drive(), mass});
+  for (const RigidBody& body : state_->bodies) list.push_back(state_of(body));
+  return list;
+}
+
+std::vector<BodyState> Simulation::commanded() const {
+  std::vector<BodyState> list = bodies();
+  for (const auto& robot : state_->robots) {
+    if (const RigidBody* base = robot->base_motion()) list.push_back(state_of(*base));
   }
   return list;
 }
 
-const RigidBody& Simulation::rigid_body(int body) const { return state_->bodies.at(body); }
+const RigidBody& Simulation::rigid_body(int body) const { return state_->commanded(body); }
 
 ContactReport Simulation::take_contact(int body) {
   const RigidBody& of = state_->bodies.at(body);

@@ -105,6 +105,14 @@ struct Simulation::State {
   std::vector<LineFit> rates;          ///< rate of each metric; those without a window stay empty
   std::vector<PeriodWrench> wrenches;  ///< wrench of each rigid body; empty where no metric is a force or a torque
 
+  /// Looks whether bodies may be where they have been put. Collective. @throws RigidError
+  void check_places(const std::vector<const RigidBody*>& moved) const;
+  /// Lets modules know of bodies that have been put elsewhere. Collective.
+  void forget_contact(const std::vector<const RigidBody*>& moved);
+  /// The part of set_state() for a body that is no link. @throws RigidError, when nothing is changed
+  void set_body(RigidBody& body, const StateSet& set);
+  /// Bodies, then moving bases of robots, by Simulation::find_commanded().
+  RigidBody& commanded(int index);
   /// Layout of every field.
   const GridLayout& layout() const { return fields.front()->layout; }
   /// The shipped modules that the definition asks for, those of the caller, and the mechanics.

@@ -75,6 +75,15 @@ void Sleep::look(const StepContext& context) {
   }
 }
 
+void Sleep::body_put(const RigidBody&) {
+  for (const auto& [name, block] : asleep_.all()) {
+    if (tool_near(layout_.block(name.key), 0.0)) to_wake_.push_back(name);
+  }
+  if (to_wake_.empty()) return;
+  sort_names(to_wake_);
+  at_once_ = true;
+}
+
 void Sleep::follow_sort(const StepContext& context) {
   const std::uint64_t generation = context.fields.front()->blocks.generation();
   if (generation_ == generation && !just_read_) return;

@@ -147,7 +147,7 @@ mpm_ros::Command to_message(const AppliedCommand& command, const std::string& bo
 
 AppliedCommand from_message(const mpm_ros::Command& message, const mpm::Simulation& simulation) {
   AppliedCommand command;
-  command.body = simulation.find_body(message.body);
+  command.body = simulation.find_commanded(message.body);
   if (command.body < 0) {
     throw BagError(fmt::format("a recorded command is for '{}', which the scene does not have", message.body));
   }

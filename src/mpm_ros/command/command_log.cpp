@@ -55,10 +55,12 @@ std::size_t first_at(const std::vector<Message>& commands, std::int64_t time) {
 
 }  // namespace
 
-CommandLog::CommandLog(std::vector<mpm_ros::Command> commands, std::vector<mpm_ros::JointCommand> joints)
-    : commands_(std::move(commands)), joints_(std::move(joints)) {
+CommandLog::CommandLog(std::vector<mpm_ros::Command> commands, std::vector<mpm_ros::JointCommand> joints,
+                       std::vector<mpm_ros::StateSet> states)
+    : commands_(std::move(commands)), joints_(std::move(joints)), states_(std::move(states)) {
   check_order(commands_);
   check_order(joints_);
+  check_order(states_);
 }
 
 std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) {
@@ -73,14 +75,22 @@ std::vector<JointOrder> CommandLog::take_joints(const mpm::Simulation& simulatio
       [&](const mpm_ros::JointCommand& command) { return from_message(command, simulation); });
 }
 
+std::vector<mpm::StateSet> CommandLog::take_states(const mpm::Simulation& simulation) {
+  return take_due<mpm::StateSet>(
+      states_, next_state_, simulation.time(), [](const mpm_ros::StateSet& state) { return state.model_name; },
+      [](const mpm_ros::StateSet& state) { return from_message(state); });
+}
+
 void CommandLog::skip_to(std::int64_t time) {
   next_ = first_at(commands_, time);
   next_joint_ = first_at(joints_, time);
+  next_state_ = first_at(states_, time);
 }
 
 CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
   std::vector<mpm_ros::JointCommand> joints;
+  std::vector<mpm_ros::StateSet> states;
   try {
     for (const std::string& part : parts_of(bag_path)) {
       if (const std::string refused = mpm::refused_input(part); !refused.empty())
@@ -96,6 +106,10 @@ CommandLog read_commands(const std::string& bag_path) {
       for (const rosbag::MessageInstance& instance : joint_view) {
         if (const auto command = instance.instantiate<mpm_ros::JointCommand>()) joints.push_back(*command);
       }
+      rosbag::View state_view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::StateSet>()));
+      for (const rosbag::MessageInstance& instance : state_view) {
+        if (const auto state = instance.instantiate<mpm_ros::StateSet>()) states.push_back(*state);
+      }
     }
   } catch (const ros::Exception& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
@@ -106,10 +120,10 @@ CommandLog read_commands(const std::string& bag_path) {
     throw BagError(
         fmt::format("bag {} is damaged: a command in it says to be longer than there is memory for", bag_path));
   }
-  if (commands.empty() && joints.empty()) {
-    throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command or JointCommand)", bag_path));
+  if (commands.empty() && joints.empty() && states.empty()) {
+    throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command, JointCommand or StateSet)", bag_path));
   }
-  return CommandLog(std::move(commands), std::move(joints));
+  return CommandLog(std::move(commands), std::move(joints), std::move(states));
 }
 
 }  // namespace mpm_ros

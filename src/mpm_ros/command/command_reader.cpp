@@ -20,15 +20,16 @@ constexpr const char* kFollowing = "tf";  // stands for a topic where a frame's 
 
 }  // namespace
 
-CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_frame, std::string prefix,
+CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_frame, const std::string& prefix,
                              const tf2::BufferCore& frames, CommandQueue& queue, NodeHealth& health)
     : bodies_(std::move(bodies)),
       world_frame_(std::move(world_frame)),
-      prefix_(std::move(prefix)),
       frames_(frames),
       queue_(queue),
       health_(health),
-      followed_(bodies_.size()) {}
+      followed_(bodies_.size()) {
+  for (const std::string& body : bodies_) below_.push_back(prefix + body);
+}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
   const std::lock_guard<std::mutex> taking(taking_);
@@ -145,7 +146,7 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
     }
   }
   if (!refused.empty()) {
-    health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[body], leaf, refused));
+    health_.refuse(fmt::format("a command on {}/{}: {}", below_[body], leaf, refused));
   }
   if (leaf == kFollowing) return;  // looked up here, not received
   count_message();

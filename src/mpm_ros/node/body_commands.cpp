@@ -26,12 +26,6 @@ const char* drive_text(mpm::Drive drive) {
 /// In diagnostics: motions and wrenches of a body come from controllers of their own.
 std::string follower_name(const std::string& body, bool wrench) { return wrench ? body + " (wrench)" : body; }
 
-std::vector<std::string> names_of(const mpm::Scene& scene) {
-  std::vector<std::string> names;
-  for (const mpm::RigidBodyDefinition& body : scene.definition.rigid_bodies) names.push_back(body.name);
-  return names;
-}
-
 std::vector<mpm::MotionLimits> limits_of(const mpm::Scene& scene) {
   std::vector<mpm::MotionLimits> limits;
   for (const mpm::CommandDefinition& commanded : scene.commands) limits.push_back(commanded.limits);
@@ -53,15 +47,16 @@ BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const 
                            NodeHealth& health)
     : parameters_(parameters),
       health_(health),
-      bodies_(names_of(scene)),
+      bodies_(mpm::commanded_names(scene)),
       log_(parameters.commands.empty() ? CommandLog() : read_commands(parameters.commands)),
       memory_(fresh_memory(scene)) {
   if (!log_.empty()) return;
   std::vector<std::string> frames;
   for (const mpm::CommandDefinition& commanded : scene.commands) frames.push_back(commanded.frame);
   node.setCallbackQueue(&callbacks_);
-  bridge_ = std::make_unique<CommandBridge>(node, bodies_, frames, parameters.world_frame, memory_.queue, health_,
-                                            parameters.tf_time == StampUse::latest,
+  const std::size_t bases = bodies_.size() - scene.definition.rigid_bodies.size();
+  bridge_ = std::make_unique<CommandBridge>(node, bodies_, bases, frames, parameters.world_frame, memory_.queue,
+                                            health_, parameters.tf_time == StampUse::latest,
                                             parameters.command_time == StampUse::latest);
   joint_bridge_ = std::make_unique<JointBridge>(node, scene.definition.robots, memory_.joints, health_,
                                                 parameters.command_time == StampUse::latest,
@@ -103,6 +98,7 @@ void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
 BodyCommands::Outcome BodyCommands::apply_due(Run& run, const StepCommands& extra) {
   if (replays()) {
     try {
+      for (const mpm::StateSet& state : log_.take_states(run.simulation())) run.set_state(state);
       for (const AppliedCommand& command : log_.take(run.simulation())) apply(run, command);
       for (const JointOrder& order : log_.take_joints(run.simulation())) run.apply(order, true);
     } catch (const BagError& error) {
@@ -113,7 +109,7 @@ BodyCommands::Outcome BodyCommands::apply_due(Run& run, const StepCommands& extr
   const std::int64_t now = run.simulation().time();
   look_at_lag(run);
   bridge_->follower().look(run.stamps().at(now + run.simulation().sync_period()));
-  for (const DueCommand& due : memory_.queue.take(now)) apply(run, in_world(due, run.simulation().bodies(), now));
+  for (const DueCommand& due : memory_.queue.take(now)) apply(run, in_world(due, run.simulation().commanded(), now));
   for (const JointOrder& order : memory_.joints.take(now)) apply(run, order);
   for (const AppliedCommand& command : extra.bodies) {
     if (const std::string refusal = apply(run, command); !refusal.empty()) return {refusal, {}};
@@ -159,7 +155,7 @@ void BodyCommands::look_at_lag(const Run& run) {
 }
 
 void BodyCommands::turn(Run& run) {
-  for (const AppliedCommand& command : memory_.turning.next(run.simulation().bodies(), run.simulation().time())) {
+  for (const AppliedCommand& command : memory_.turning.next(run.simulation().commanded(), run.simulation().time())) {
     try {
       if (!memory_.limiter.take(command, run.simulation())) run.apply(command);
     } catch (const mpm::RigidError& error) {
@@ -266,7 +262,7 @@ StepCommands BodyCommands::read(const std::vector<Command>& requested, const std
       }
       due.arrival = (arrival + sync - 1) / sync * sync;
     }
-    commands.bodies.push_back(in_world(due, run.simulation().bodies(), now));
+    commands.bodies.push_back(in_world(due, run.simulation().commanded(), now));
     commands.bodies.back().stamp_ignored = false;  // a request has no stamp; `requested` is what it was copied with
   }
   for (const mpm_ros::JointCommand& message : joints) {
@@ -286,6 +282,26 @@ StepCommands BodyCommands::read(const std::vector<Command>& requested, const std
 
 bool BodyCommands::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
   return bridge_->reader().wait_received(count, patience);
+}
+
+std::string BodyCommands::set_state(Run& run, const mpm::StateSet& state) {
+  if (replays()) return "recorded commands are being replayed (~commands); nothing else is set";
+  const int body = run.simulation().find_commanded(state.name);
+  if (state.pose && body >= 0) {
+    if (const std::string reason = bridge_->reader().refusal_of(body); !reason.empty()) {
+      return fmt::format("'{}': {}", state.name, reason);
+    }
+  }
+  try {
+    run.set_state(state);
+  } catch (const mpm::RigidError& error) {
+    return error.what();
+  }
+  if (body < 0) return {};
+  // It is on its way to nowhere.
+  memory_.limiter.drop(body);
+  memory_.turning.drop(body);
+  return {};
 }
 
 void BodyCommands::forget_frames() {

@@ -7,6 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -67,12 +68,10 @@ FramePoses::FramePoses(const ros::NodeHandle& node, const NodeParameters& parame
     : starts_(frame_starts(parameters.scene, set)) {
   if (starts_.empty()) return;
   const mpm::Scene scene = mpm::load_scene(parameters.scene, set);
+  const std::vector<std::string> names = mpm::commanded_names(scene);
   for (const FrameStart& start : starts_) {
-    int body = 0;
-    for (std::size_t b = 0; b < scene.definition.rigid_bodies.size(); ++b) {
-      if (scene.definition.rigid_bodies[b].name == start.body) body = static_cast<int>(b);
-    }
-    bodies_.push_back(body);
+    const auto found = std::find(names.begin(), names.end(), start.body);
+    bodies_.push_back(found == names.end() ? 0 : static_cast<int>(found - names.begin()));
   }
   set_.resize(starts_.size());
   if (!parameters.resume.empty()) {
@@ -115,11 +114,14 @@ FramePoses::FramePoses(const ros::NodeHandle& node, const NodeParameters& parame
 
 void FramePoses::put(std::size_t start, const mpm::Scene& scene, int body, const mpm::Pose& pose) {
   const mpm::GeometryKind geometry = scene.definition.geometry;
-  const mpm::RigidBodyDefinition& definition = scene.definition.rigid_bodies[static_cast<std::size_t>(body)];
+  const auto& bodies = scene.definition.rigid_bodies;
+  const auto index = static_cast<std::size_t>(body);
   try {
-    set_[start] = pose_override(starts_[start], mpm::projected(pose, geometry, definition), geometry);
+    // Robots are of solid scenes, where every pose is one of the geometry.
+    set_[start] = pose_override(starts_[start],
+                                index < bodies.size() ? mpm::projected(pose, geometry, bodies[index]) : pose, geometry);
   } catch (const mpm::RigidError& error) {
-    throw ParameterError(fmt::format("'{}' cannot begin at its tf frame '{}': {}", definition.name,
+    throw ParameterError(fmt::format("'{}' cannot begin at its tf frame '{}': {}", starts_[start].body,
                                      scene.commands[static_cast<std::size_t>(body)].frame, error.what()));
   }
 }

@@ -14,11 +14,18 @@ std::vector<FrameStart> frame_starts(const std::string& name_or_path, const std:
   const mpm::Source source(scene.text, scene.path, overrides);
   std::vector<FrameStart> found;
   const YAML::Node list = source.root()["rigid_bodies"];
-  if (!list || !list.IsSequence()) return found;
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (std::size_t i = 0; list && list.IsSequence() && i < list.size(); ++i) {
     if (!list[i].IsMap() || !list[i]["drive"] || list[i]["pose"]) continue;
     const std::string name = mpm::element_name(list, i);
     found.push_back({name, fmt::format("rigid_bodies.{}.pose", name)});
+  }
+  const YAML::Node robots = source.root()["robots"];
+  for (std::size_t i = 0; robots && robots.IsSequence() && i < robots.size(); ++i) {
+    if (!robots[i].IsMap()) continue;
+    const YAML::Node base = robots[i]["base"];
+    if (!base || !base.IsMap() || !base["drive"] || base["pose"]) continue;
+    const std::string name = mpm::element_name(robots, i);
+    found.push_back({name, fmt::format("robots.{}.base.pose", name)});
   }
   return found;
 }

@@ -22,6 +22,7 @@ Publishers::Publishers(ros::NodeHandle node, const std::vector<std::string>& bod
   publishers_[topics::kTf] = node.advertise<tf2_msgs::TFMessage>(topics::kTf, kSmall);
   publishers_[topics::kParticles] = node.advertise<sensor_msgs::PointCloud2>(topics::kParticles, kLarge);
   publishers_[topics::kCommands] = node.advertise<Command>(topics::kCommands, kSmall);
+  publishers_[topics::kStatesSet] = node.advertise<StateSet>(topics::kStatesSet, kSmall);
   for (const std::string& body : bodies) {
     const std::string topic = topics::of_body(body, topics::kWrench);
     publishers_[topic] = node.advertise<geometry_msgs::WrenchStamped>(topic, kSmall);
@@ -55,8 +56,9 @@ void Publishers::add_robot(const mpm::RobotDefinition& robot) {
   const std::string joints = topics::of_robot(robot.name, topics::kJointStates);
   ros::Publisher& states = publishers_[joints];
   if (!states) states = node_.advertise<sensor_msgs::JointState>(joints, kSmall);
-  for (const int sensor : robot.sensors) {  // a reset may bring others
-    const std::string topic = topics::of_robot(robot.name, "sensors/" + robot.model.joints[sensor].name + "/wrench");
+  for (const mpm::SensorDefinition& sensor : robot.sensors) {  // a reset may bring others
+    const std::string topic =
+        topics::of_robot(robot.name, "sensors/" + robot.model.joints[sensor.joint].name + "/wrench");
     ros::Publisher& wrench = publishers_[topic];
     if (!wrench) wrench = node_.advertise<geometry_msgs::WrenchStamped>(topic, kSmall);
   }

@@ -70,7 +70,9 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   ros::NodeHandle services(node_), urgent(node_);
   services.setCallbackQueue(&service_callbacks_);
   urgent.setCallbackQueue(&pause_callbacks_);
-  publishers_ = std::make_unique<Publishers>(services, commands_.bodies(), parameters_.wrench_cutoff > 0.0);
+  std::vector<std::string> bodies;
+  for (const mpm::RigidBodyDefinition& body : subject_->scene.definition.rigid_bodies) bodies.push_back(body.name);
+  publishers_ = std::make_unique<Publishers>(services, bodies, parameters_.wrench_cutoff > 0.0);
   pacer_ = std::make_unique<Pacer>(subject_->scene.definition.time.sync, parameters_.real_time_factor);
   // Before the run has a time to keep; the copy that is timed is freed before the run is built.
   first_run.stop = stop_overdue;
@@ -87,6 +89,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
   services_.push_back(services.advertiseService(topics::kResetWith, &SimulatorNode::on_reset_with, this));
   services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
+  services_.push_back(services.advertiseService(topics::kSetState, &SimulatorNode::on_set_state, this));
   services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
   services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
 
@@ -174,8 +177,9 @@ std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::checked(Subject loa
   check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()), subject->scene);
   const auto bodies = [](const mpm::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> names;  // and the frames that they follow
-    for (std::size_t body = 0; body < scene.commands.size(); ++body) {
-      names.emplace_back(scene.definition.rigid_bodies[body].name, scene.commands[body].frame);
+    const std::vector<std::string> commanded = mpm::commanded_names(scene);
+    for (std::size_t body = 0; body < commanded.size(); ++body) {
+      names.emplace_back(commanded[body], scene.commands[body].frame);
     }
     for (const mpm::RobotDefinition& robot : scene.definition.robots) names.emplace_back(robot.name, "");
     return names;

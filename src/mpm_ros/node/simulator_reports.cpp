@@ -37,9 +37,9 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
   facts.clock = parameters_.publish_clock && ros::Time::isSimTime();
   facts.commands = parameters_.commands;
   facts.heights = heights_.from;
+  const std::vector<std::string> names = mpm::commanded_names(scene);
   for (std::size_t body = 0; body < scene.commands.size(); ++body) {
-    if (!scene.commands[body].frame.empty())
-      facts.frames.emplace_back(scene.definition.rigid_bodies[body].name, scene.commands[body].frame);
+    if (!scene.commands[body].frame.empty()) facts.frames.emplace_back(names[body], scene.commands[body].frame);
   }
   ROS_INFO_STREAM(start_line(facts));
   const bool paced = parameters_.pacing == Pacing::real_time;

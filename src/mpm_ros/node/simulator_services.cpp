@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "mpm_ros/command/set_state.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/message/robot_messages.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
@@ -48,7 +49,12 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
 }
 
 bool SimulatorNode::on_reset_with(Reset::Request& request, Reset::Response& response) {
-  hand_over([&] { reset_with(request.set, response); }, response.message);
+  hand_over([&] { reset_with(request, response); }, response.message);
+  return true;
+}
+
+bool SimulatorNode::on_set_state(SetState::Request& request, SetState::Response& response) {
+  hand_over([&] { set_state(request, response); }, response.status_message);
   return true;
 }
 
@@ -97,10 +103,19 @@ std::string SimulatorNode::reset(const std::shared_ptr<const Subject>& subject, 
              : failure_;
 }
 
-void SimulatorNode::reset_with(const std::vector<std::string>& set, Reset::Response& response) {
+void SimulatorNode::reset_with(const Reset::Request& request, Reset::Response& response) {
   bool success = false;
   try {
-    response.message = reset(load_subject(set), success);
+    std::shared_ptr<const Subject> subject = load_subject(request.set);
+    if (!request.start.empty()) {
+      std::vector<std::string> set = request.set;
+      for (std::string& one : start_overrides(request.start, subject->scene, response.message)) {
+        set.push_back(std::move(one));
+      }
+      if (!response.message.empty()) return;
+      subject = load_subject(set);
+    }
+    response.message = reset(subject, success);
   } catch (const std::exception& error) {
     response.message = refusal_of(error);
   }
@@ -114,6 +129,29 @@ void SimulatorNode::reset_with(const std::vector<std::string>& set, Reset::Respo
   response.bodies = run_->outputs().body_states();
   const std::vector<mpm::RobotReport> robots = run_->simulation().robots();
   response.robots = to_message(robots, robots, 0.0);
+}
+
+void SimulatorNode::set_state(const SetState::Request& request, SetState::Response& response) {
+  response.success = 0;
+  std::string& problem = response.status_message;
+  switch (phase()) {
+    case Phase::running:
+      problem = "the run advances by itself, and states are set in a pause; call pause with true first";
+      return;
+    case Phase::ended:
+      problem = "the run has ended; call reset or reset_with, and set the state before its first step";
+      return;
+    case Phase::failed:
+      problem = failure_ + "; call reset or reset_with to begin again, or load_checkpoint";
+      return;
+    default:
+      break;
+  }
+  const mpm::StateSet state = read_state(request, parameters_.world_frame, problem);
+  if (problem.empty()) problem = commands_.set_state(*run_, state);
+  if (!problem.empty()) return;
+  response.success = 1;
+  problem = fmt::format("'{}' is set at {:.6f} s (simulated)", state.name, mpm::seconds_of(run_->simulation().time()));
 }
 
 bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& response) const {

@@ -272,6 +272,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const se
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const JointCommand& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const StateSet& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Command& message) {
   write(topic, stamp, message);
 }

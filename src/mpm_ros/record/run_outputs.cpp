@@ -166,6 +166,11 @@ void RunOutputs::command(const JointOrder& order) {
   sinks_.end_writing();
 }
 
+void RunOutputs::state_set(const mpm::StateSet& state) {
+  put(topics::kStatesSet, to_message(state, simulation_.time(), options_.world_frame, stamps_));
+  end_writing();
+}
+
 void RunOutputs::sync(bool last, double real_time_factor) {
   contacts_.read();
   read_cuts();

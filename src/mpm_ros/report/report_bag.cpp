@@ -333,12 +333,15 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& told)
 void RunBag::read_states_and_commands(RunVisitor& visitor) {
   reading(path_, [&] {
     rosbag::View view;
-    select(view, {topic(topics::kSolverState), topic(topics::kCommands), topic(topics::kJointCommands)});
+    select(view, {topic(topics::kSolverState), topic(topics::kCommands), topic(topics::kJointCommands),
+                  topic(topics::kStatesSet)});
     for (const rosbag::MessageInstance& instance : view) {
       if (instance.getDataType() == type_of<Command>()) {
         hand_on(instance, {&visitor}, &RunVisitor::command);
       } else if (instance.getDataType() == type_of<JointCommand>()) {
         hand_on(instance, {&visitor}, &RunVisitor::joint_command);
+      } else if (instance.getDataType() == type_of<StateSet>()) {
+        hand_on(instance, {&visitor}, &RunVisitor::state_set);
       } else {
         hand_on(instance, {&visitor}, &RunVisitor::solver_state);
       }

@@ -17,6 +17,7 @@ class Reader : public RunVisitor {
   explicit Reader(Rerun& rerun) : rerun_(rerun) {}
   void command(std::int64_t, const mpm_ros::Command& message) override { rerun_.commands.push_back(message); }
   void joint_command(std::int64_t, const JointCommand& message) override { rerun_.joint_commands.push_back(message); }
+  void state_set(std::int64_t, const StateSet& message) override { rerun_.states_set.push_back(message); }
   void solver_state(std::int64_t time, const SolverState& message) override {
     if (!begin_) begin_ = time;
     rerun_.end = time;

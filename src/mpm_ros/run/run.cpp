@@ -126,6 +126,11 @@ void Run::apply(const JointOrder& order, bool again) {
   }
 }
 
+void Run::set_state(const mpm::StateSet& state) {
+  simulation_.set_state(state);
+  outputs_.state_set(state);
+}
+
 void Run::advance(std::chrono::steady_clock::duration late) {
   try {
     simulation_.advance(late);

@@ -113,7 +113,7 @@ class OfflineRun {
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
       if (scene_.commands[body].frame.empty() || rerun_) continue;  // skips bodies that the recording moves
       err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
-                         scene_.definition.rigid_bodies[body].name);
+                         mpm::commanded_names(scene_)[body]);
     }
     const mpm::SolverState start = simulation.state();
     ProgressBar progress(err, bar);
@@ -154,6 +154,7 @@ class OfflineRun {
         if (check_) check_->look(simulation);
         run_->begin();
         while (!run_->ended() && !simulation.on_any_rank(stop_requested())) {
+          for (const mpm::StateSet& state : commands_.take_states(simulation)) run_->set_state(state);
           for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
           for (const JointOrder& order : commands_.take_joints(simulation)) run_->apply(order, true);
           run_->advance();
@@ -166,6 +167,11 @@ class OfflineRun {
           progress.show(static_cast<double>(simulation.time()) / end, where);
         }
         progress.clear();
+        if (run_->ended() && rerun_) {
+          // The recorded run was ended in a pause in which states had been set.
+          for (const mpm::StateSet& state : commands_.take_states(simulation)) run_->set_state(state);
+          if (check_) check_->look(simulation);
+        }
         if (!run_->ended()) {
           err << fmt::format("stopped at t = {:g} s, before the end\n", mpm::nearest_seconds(simulation.time()));
           if (check_) check_->differs("it was stopped before its end");
@@ -222,7 +228,7 @@ class OfflineRun {
   void choose_as_recorded(RunOptions& run_options) {
     const RunInfo& info = rerun_->info;
     check_.emplace(*rerun_);
-    commands_ = CommandLog(rerun_->commands, rerun_->joint_commands);
+    commands_ = CommandLog(rerun_->commands, rerun_->joint_commands, rerun_->states_set);
     run_options.parameters = fmt::format("from_bag: {}\n", mpm::json_text(nlohmann::json(options_.from_bag)));
     notes_.push_back(fmt::format(
         "{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s", info.scene,

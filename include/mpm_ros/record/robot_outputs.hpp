@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/definition/report.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/robot/robot_report.hpp"
 
@@ -24,6 +25,10 @@ class RobotOutputs {
   /// time they sum up to the impulse that was applied.
   static sensor_msgs::JointState joints(const mpm::RobotReport& now, const mpm::RobotReport& last, double interval);
   static std::vector<SensorMessage> sensors(const mpm::RobotReport& now, const mpm::RobotReport& last, double interval);
+  /// Where the base links are, for tf: from there on robot_state_publisher has the links. Without those that are called
+  /// as the world's frame is.
+  static std::vector<mpm::BodyState> bases(const std::vector<mpm::RobotDefinition>& robots,
+                                           const std::vector<mpm::RobotReport>& now, const std::string& world_frame);
 
   /// Reports of now and of the last call, and the time between [s].
   struct Interval {

@@ -36,6 +36,19 @@ std::vector<SensorMessage> RobotOutputs::sensors(const mpm::RobotReport& now, co
   return messages;
 }
 
+std::vector<mpm::BodyState> RobotOutputs::bases(const std::vector<mpm::RobotDefinition>& robots,
+                                                const std::vector<mpm::RobotReport>& now,
+                                                const std::string& world_frame) {
+  std::vector<mpm::BodyState> bases;
+  for (std::size_t robot = 0; robot < robots.size(); ++robot) {
+    mpm::BodyState base;
+    base.name = robots[robot].model.links.front().name;
+    base.pose = now[robot].base;
+    if (base.name != world_frame) bases.push_back(base);
+  }
+  return bases;
+}
+
 RobotOutputs::Interval RobotOutputs::take(std::vector<mpm::RobotReport> now, double time) {
   if (last_.empty()) last_ = now;
   Interval interval{std::move(now), std::move(last_), time - time_};

@@ -371,6 +371,10 @@ void RunOutputs::write_bodies() {
       return std::find(options_.others.begin(), options_.others.end(), body.name) != options_.others.end();
     };
     own.erase(std::remove_if(own.begin(), own.end(), elsewhere), own.end());
+    for (mpm::BodyState& base :
+         RobotOutputs::bases(simulation_.definition().robots, simulation_.robots(), options_.world_frame)) {
+      own.push_back(std::move(base));
+    }
     put(topics::kTf, to_transforms(own, options_.world_frame, stamp()));
   }
   if (wanted(topics::kBodies)) put(topics::kBodies, body_states());

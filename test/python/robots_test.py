@@ -67,12 +67,15 @@ class Robots(unittest.TestCase):
                 counts = {topic.rsplit("mpm/", 1)[-1]: info.message_count
                           for topic, info in recorded.get_type_and_topic_info().topics.items()}
                 states = [message for _, message, _ in recorded.read_messages(topics=["/mpm/robots/gantry/joint_states"])]
+                frames = [message for _, message, _ in recorded.read_messages(topics=["/tf"])][-1].transforms
                 wrenches = [message for _, message, _ in
                             recorded.read_messages(topics=["/mpm/robots/gantry/sensors/turn/wrench"])]
             self.assertEqual(counts["joint_commands"], 2)
             self.assertEqual(counts["robots/gantry/joint_states"], 51)
             self.assertEqual(counts["robots/gantry/links/plate/wrench"], counts["contact_forces"])
             self.assertEqual(states[-1].name, ["along", "down", "turn"])
+            base = [frame for frame in frames if frame.child_frame_id == "base"][0]  # whence robot_state_publisher goes on
+            self.assertEqual((base.header.frame_id, base.transform.translation.z), ("world", 0.04))
             self.assertAlmostEqual(states[1].velocity[1], (200 + WEIGHT) / 4 * 0.002)  # with all that the drive has
             # The wrist carries the plate of 1 kg: while the slide speeds up, and at its steady speed above the clay.
             self.assertAlmostEqual(wrenches[1].wrench.force.z, 9.81 - (200 + WEIGHT) / 4, delta=1e-6)

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "mpm/definition/report.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/robot/robot_report.hpp"
 #include "mpm_ros/record/output_sinks.hpp"
@@ -21,6 +23,9 @@ class RobotOutputs {
   /// Writes them as they stand, with efforts and wrenches of the last step: where a run goes on from a checkpoint,
   /// whose means are under way, and where it failed between two sync points.
   void write_present();
+  /// Poses of the base links, for tf: from there on robot_state_publisher has the links. Without those that are called
+  /// as the world's frame is.
+  std::vector<mpm::BodyState> bases(const std::string& world_frame) const;
   /// [ns] of the last call of write(), -1 before the first.
   std::int64_t written_at() const { return written_at_; }
   /// For checkpoints: impulses at the last call of write().

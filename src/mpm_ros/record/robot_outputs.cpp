@@ -49,6 +49,20 @@ void RobotOutputs::put(const std::vector<mpm::RobotReport>& now, const std::vect
   if (sinks_.wanted(topics::kRobots)) sinks_.put(topics::kRobots, message);
 }
 
+std::vector<mpm::BodyState> RobotOutputs::bases(const std::string& world_frame) const {
+  const std::vector<mpm::RobotDefinition>& robots = simulation_.definition().robots;
+  std::vector<mpm::BodyState> bases;
+  if (robots.empty()) return bases;
+  const std::vector<mpm::RobotReport> now = simulation_.robots();
+  for (std::size_t robot = 0; robot < robots.size(); ++robot) {
+    mpm::BodyState base;
+    base.name = robots[robot].model.links.front().name;
+    base.pose = now[robot].base;
+    if (base.name != world_frame) bases.push_back(base);
+  }
+  return bases;
+}
+
 void RobotOutputs::serialise(mpm::StateArchive& archive) {
   if (simulation_.definition().robots.empty()) return;
   const mpm::StateArchive::Group group(archive, "robots");

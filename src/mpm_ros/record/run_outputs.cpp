@@ -246,6 +246,7 @@ void RunOutputs::write_bodies() {
       return std::find(options_.others.begin(), options_.others.end(), body.name) != options_.others.end();
     };
     own.erase(std::remove_if(own.begin(), own.end(), elsewhere), own.end());
+    for (mpm::BodyState& base : robots_.bases(options_.world_frame)) own.push_back(std::move(base));
     sinks_.put(topics::kTf, to_transforms(own, options_.world_frame, sinks_.stamp()));
   }
   if (sinks_.wanted(topics::kBodies)) sinks_.put(topics::kBodies, body_states());

@@ -67,6 +67,9 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::divided_bodies:
       add_body(d).divides = {"bed"};
       break;
+    case Feature::following_ground:
+      d.bed.emplace();
+      break;
     case Feature::free_bodies:
       add_body(d).free.emplace();
       break;

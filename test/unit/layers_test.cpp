@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 using Layers = std::map<std::string, int>;
 
-const Layers kLayers = {{"math", 1},    {"loop", 1},        {"grid", 2},      {"particles", 2}, {"keys", 2},
-                        {"shape", 3},   {"material", 3},    {"rigid", 3},     {"ranks", 3},     {"step", 4},
-                        {"kernel", 4},  {"robot", 4},       {"mechanics", 5}, {"contact", 5},   {"boundary", 5},
-                        {"sleep", 5},   {"transport", 5},   {"implicit", 6},  {"crack", 6},     {"definition", 7},
-                        {"rules", 8},   {"choice", 8},      {"modules", 9},   {"start", 9},     {"simulation", 10},
-                        {"pace", 11},   {"checkpoint", 11}, {"scene", 12},    {"yaml", 13},     {"terrain", 14},
-                        {"advice", 15}, {"building", 16},   {"sections", 16}, {"sweep", 17},    {"volumes", 5}};
+const Layers kLayers = {
+    {"math", 1},        {"loop", 1},       {"grid", 2},        {"particles", 2}, {"keys", 2},      {"shape", 3},
+    {"material", 3},    {"rigid", 3},      {"ranks", 3},       {"step", 4},      {"kernel", 4},    {"robot", 4},
+    {"mechanics", 5},   {"contact", 5},    {"boundary", 5},    {"sleep", 5},     {"transport", 5}, {"implicit", 6},
+    {"crack", 6},       {"definition", 7}, {"rules", 8},       {"choice", 8},    {"modules", 9},   {"start", 9},
+    {"simulation", 10}, {"pace", 11},      {"checkpoint", 11}, {"scene", 12},    {"yaml", 13},     {"terrain", 14},
+    {"advice", 15},     {"building", 16},  {"sections", 16},   {"sweep", 17},    {"volumes", 5},   {"bed", 6}};
 const Layers kRosLayers = {{"message", 1}, {"csv", 2},    {"command", 3}, {"sweep", 3}, {"aim", 4},
                            {"report", 4},  {"record", 5}, {"run", 6},     {"node", 7},  {"sweeping", 7}};
 

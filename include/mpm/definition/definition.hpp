@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/bed/bed_definition.hpp"
 #include "mpm/boundary/condition.hpp"
 #include "mpm/boundary/wall_definition.hpp"
 #include "mpm/contact/pair_detection.hpp"
@@ -215,6 +216,7 @@ struct SimulationDefinition {
   std::vector<ParticleForceDefinition> particle_forces;
   std::vector<TractionDefinition> tractions;
   std::optional<SleepDefinition> sleep;
+  std::optional<BedDefinition> bed;  ///< ground that follows bodies; it is the only deformable body
   TransportDefinition transport;
   CracksDefinition cracks;
   std::vector<VolumeDefinition> volumes;

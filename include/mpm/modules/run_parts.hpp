@@ -25,7 +25,9 @@
 namespace mpm {
 
 class DampingControl;
+class FollowingBed;
 class HeatSink;
+class Sleep;
 class ToolSides;
 class TransportedField;
 
@@ -33,6 +35,7 @@ class TransportedField;
 struct Services {
   std::unique_ptr<VolumeSurvey> volumes;
   std::unique_ptr<SweepBudget> budget;  ///< budget of the scene; null without one
+  FollowingBed* bed = nullptr;          ///< module of ground that follows bodies; null without one
 };
 
 /// All parts but the lists of text outlive the modules.
@@ -61,6 +64,7 @@ struct RunParts {
   DampingControl* damping = nullptr;
   HeatSink* heat = nullptr;
   TransportedField* temperature = nullptr;
+  Sleep* sleep = nullptr;
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();

@@ -51,6 +51,7 @@ void add_sleep(RunParts& parts);
 void add_step_limit(RunParts& parts);
 void add_transport(RunParts& parts);
 void add_cracks(RunParts& parts);
+void add_bed(RunParts& parts);
 void add_volumes(RunParts& parts);
 
 }  // namespace mpm

@@ -28,6 +28,7 @@ enum class Feature {
   cracks,
   damping,
   divided_bodies,
+  following_ground,
   free_bodies,
   implicit_steps,
   leaving,

@@ -144,6 +144,8 @@ FractureConstants read_fracture_constants(const Map& map, const CracksDefinition
 Vec2 read_plane_vector(const Value& value, const Dimension& dimension);
 /// `volumes`, after rigid bodies
 void read_volumes(const Map& root, Scene& scene);
+/// `terrain`, after bodies, rigid bodies, robots, `sleep` and volumes
+void read_bed(const Map& root, Scene& scene);
 /// `metrics`, after bodies and volumes
 void read_metrics(const Map& root, Scene& scene);
 

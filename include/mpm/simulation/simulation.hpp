@@ -175,7 +175,8 @@ class Simulation {
   /// Names that particle_field() knows in every run, with their units: {"vx", "m/s"}, … In a run it also knows those
   /// that its modules add (ParticleSet::brought).
   static std::vector<std::pair<std::string, std::string>> particle_fields();
-  /// One value for each particle, in order of id (0 … particles()-1): the same order in every call.
+  /// One value for each particle, in order of id (0 … particles()-1, but where ground follows bodies, whose particles
+  /// come and go): the same order in every call.
   /// @throws DefinitionError for an unknown name, listing those that exist.
   void particle_field(const std::string& name, std::vector<float>& values) const;
   void particle_field(const std::string& name, std::vector<double>& values) const;

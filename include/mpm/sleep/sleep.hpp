@@ -24,6 +24,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -84,6 +85,19 @@ class Sleep final : public Stage {
   }
   void share_memory(Communicator&) override;
 
+  // For what makes ground and puts it away between two steps (sleep_between_steps.cpp).
+
+  using Which = std::function<bool(std::uint64_t key)>;  ///< true for the keys of some blocks
+  /// Blocks that stay asleep, whatever comes, as long as they are named.
+  void keep_asleep(Which stays) { stays_ = std::move(stays); }
+  /// Puts blocks to sleep that are awake. Particles have to be sorted, and again after it.
+  void lay_asleep(const Which& which);
+  /// The particles of a block asleep are there no more, nor is its weight.
+  void take_away(const BlockName& name);
+  /// When particles have come to sets or gone from them (particles/append.hpp).
+  void follow_moves() { asleep_.follow_moves(); }
+  const SleepingBlocks& asleep() const { return asleep_; }
+
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override;
   void numbers(std::vector<NamedNumber>& list) const override;
@@ -107,6 +121,10 @@ class Sleep final : public Stage {
   /// After a checkpoint has been read: the numbers of their owners.
   void find_owners_of_sleepers();
   void look(const StepContext& context);
+  /// Puts `sleepers_` to sleep, whose particles are sorted.
+  void fall_asleep();
+  /// Takes out of `to_wake_` what stays asleep.
+  void leave_what_stays();
   /// On any rank.
   bool none_asleep() const;
   /// True if a tool is so near to a block that it has to be awake, in steps of `dt` [s].
@@ -132,6 +150,7 @@ class Sleep final : public Stage {
   std::uint32_t looks_waited_ = 0;                 ///< by those who may fall asleep
   std::uint32_t steps_waited_ = 0;                 ///< by those who are to wake
   bool at_once_ = false;                           ///< one of them cannot wait
+  Which stays_;                                    ///< may be empty
   bool begun_ = false;                             ///< the first step is done
   bool just_read_ = false;                         ///< a checkpoint has been read, and no step has followed
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< those who may fall asleep, without forces yet

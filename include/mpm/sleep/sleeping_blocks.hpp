@@ -79,6 +79,9 @@ class SleepingBlocks {
   TakenMotion put_to_sleep(const std::vector<Sleeper>& sleepers);
   /// Wakes the block of this name, if it is asleep. Particles have to be sorted after it.
   void wake(const BlockName& name);
+  /// Takes the block of this name out of its sets, if it is asleep: its particles are there no more. Those that are
+  /// awake stay where they are.
+  void take_away(const BlockName& name);
   /// To be called when blocks have fallen asleep or woken, on any rank: particles that are awake may have changed
   /// places, and the next sort takes those of a node in the order of their ids (ParticleSet::sorts_by_id).
   void forget_order();
@@ -141,6 +144,7 @@ class SleepingBlocks {
   void put_set(std::size_t s, const std::vector<Sleeper>& sleepers, const std::vector<SleepingBlock*>& blocks,
                TakenMotion& taken);
   void wake_set(std::size_t s, SleepingBlock& block);
+  void take_out_of_set(std::size_t s, SleepingBlock& block);
   void follow_moves(std::size_t s);
   /// Takes the places of a set's particles; `block_of`: the key of the block that each sleeps in, or kAwake.
   void take_places(std::size_t s, std::vector<std::uint64_t> block_of, bool merging);

@@ -20,6 +20,7 @@ struct SceneFacts {
   bool axisymmetric = false;
   mpm::Vec3 gravity = mpm::Vec3::Zero();               ///< [m/s^2]
   mpm::Precision precision = mpm::Precision::float64;  ///< precision of the particles
+  bool ground_follows = false;                         ///< particles come and go
 };
 
 /// A text that this version does not read (or none) gives facts without values.

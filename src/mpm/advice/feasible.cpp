@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mpm/advice/memory.hpp"
+#include "mpm/grid/grid_layout.hpp"
 #include "mpm/material/material_point.hpp"
 #include "mpm/math/constants.hpp"
 #include "mpm/rules/transport_work.hpp"
@@ -29,10 +30,26 @@ double fullness(const Region& region, GeometryKind geometry) {
   return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;
 }
 
+/// Part of ground that follows bodies that is there at the start, at most.
+double part_at_start(const Box& bounds, const SimulationDefinition& definition) {
+  const BedDefinition& bed = *definition.bed;
+  double part = 0.0;
+  for (std::size_t follower = 0; follower < bed.follow.size(); ++follower) {
+    double own = 1.0;
+    for (const int axis : axes_of(definition.geometry)) {
+      const double reach = bed.within + 2.0 * kBlockEdge * definition.grid.cell[axis];
+      if (axis != 2) own *= std::min(1.0, 2.0 * reach / (bounds.max[axis] - bounds.min[axis]));
+    }
+    part += own;
+  }
+  return std::min(1.0, part);
+}
+
 /// Number of particles that a body will have, about.
 double particles_of(const BodyDefinition& body, const Scene& scene) {
   const Box bounds = body.region.bounds();
   double places = fullness(body.region, scene.definition.geometry);
+  if (scene.definition.bed) places *= part_at_start(bounds, scene.definition);
   for (const int axis : axes_of(scene)) places *= (bounds.max[axis] - bounds.min[axis]) / particle_spacing(scene, axis);
   return places;
 }

@@ -7,12 +7,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
 #include <optional>
 
 #include "filling.hpp"
+#include "ground_source.hpp"
 #include "mpm/advice/feasible.hpp"
 #include "mpm/advice/scene_warnings.hpp"
+#include "mpm/bed/bed_columns.hpp"
 #include "mpm/definition/layout.hpp"
 #include "mpm/ranks/agree.hpp"
 #include "mpm/ranks/of_all.hpp"
@@ -95,8 +98,8 @@ void set_initial(const BodyDefinition& body, DeformableBody& filled, const std::
   filled.geostatic = body.geostatic;
 }
 
-/// A body's particles as its definition, all of them or a rank's own.
-DeformableBody fill(const BodyDefinition& body, const Filling& filling, OwnPart* part, std::size_t number) {
+/// A body's definition without particles.
+DeformableBody without_particles(const BodyDefinition& body, const Filling& filling) {
   DeformableBody filled;
   filled.name = body.name;
   filled.material = body.material;
@@ -104,6 +107,42 @@ DeformableBody fill(const BodyDefinition& body, const Filling& filling, OwnPart*
   filled.particle_volume = filling.particle_volume();
   filled.lattice = filling.lattice();
   filled.filling = filling.text();
+  return filled;
+}
+
+/// The body as ground that follows others: its particles as far as they are there at the start. `bed` gets its source.
+DeformableBody fill_ground(const Scene& scene, std::size_t number, BedDefinition& bed) {
+  const BodyDefinition& body = scene.bodies[number];
+  const auto source = std::make_shared<SceneGround>(scene, number);
+  bed.source = source;
+  const GridLayout layout = layout_of(scene.definition);
+  const BedColumns columns(layout);
+  std::vector<Vec3> places;
+  for (const RigidBodyDefinition& rigid : scene.definition.rigid_bodies) {
+    if (std::find(bed.follow.begin(), bed.follow.end(), rigid.name) != bed.follow.end())
+      places.push_back(rigid.pose.position);
+  }
+  const BedColumns::Flags there = columns_with_ground(columns, places, bed.within);
+  GroundParticles ground;
+  for (int column = 0; column < columns.count(); ++column) {
+    if (there[column] != 0) add_column(columns, column, *source, ground);
+  }
+  if (ground.positions.empty()) {
+    throw SceneError(
+        fmt::format("{}: no particle of body '{}' lies within {:g} m of what it follows; move one of them, "
+                    "or raise terrain.within",
+                    body.where, body.name, bed.within));
+  }
+  DeformableBody filled = without_particles(body, source->filling());
+  filled.positions = std::move(ground.positions);
+  filled.parts = std::move(ground.parts);
+  filled.surfaces = std::move(ground.surfaces);
+  return filled;
+}
+
+/// A body's particles as its definition, all of them or a rank's own.
+DeformableBody fill(const BodyDefinition& body, const Filling& filling, OwnPart* part, std::size_t number) {
+  DeformableBody filled = without_particles(body, filling);
   const auto add = [&](const FilledPlace& place) {
     filled.positions.push_back(place.centre);
     if (!filling.cuts()) return;
@@ -205,7 +244,9 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks, const std::f
   if (ranks != nullptr) part.emplace(*ranks, layout_of(definition));
   std::vector<Filling> fillings;
   for (const BodyDefinition& body : scene.bodies) {
-    fillings.emplace_back(body, scene, ranks == nullptr ? interrupt : nullptr);  // ranks stop together only
+    const bool follows = definition.bed.has_value();
+    if (!follows)
+      fillings.emplace_back(body, scene, ranks == nullptr ? interrupt : nullptr);  // ranks stop together only
     FillingChecks checks(body, scene, half_spacing);
     if (part) {
       part->begin_body();
@@ -217,7 +258,8 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks, const std::f
       checks.end();
       continue;
     }
-    DeformableBody filled = fill(body, fillings.back(), nullptr, 0);
+    DeformableBody filled =
+        follows ? fill_ground(scene, fillings.size(), *definition.bed) : fill(body, fillings.back(), nullptr, 0);
     for (const Vec3& point : filled.positions) checks.look(point);
     checks.end();
     set_initial(body, filled, interrupt);

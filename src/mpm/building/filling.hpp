@@ -3,7 +3,9 @@
 // they have the volume of what they fill. Private to this folder.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -57,6 +59,25 @@ class Filling {
       if (!is_cut_out(place.centre)) visit(place);
     });
   }
+  /// The same for particles whose places lie in a box along x and y or beside it, of a body without jitter.
+  template <class Visit>
+  void each_in(const Box& bounds, Visit&& visit) const {
+    std::array<Lattice, 3> part = lattices_;
+    for (const int axis : axes_) {
+      if (axis == 2) continue;
+      Lattice& along = part[axis];
+      const auto place = [&](double at) { return std::floor((at - along.origin) / along.spacing); };
+      const double first = static_cast<double>(along.first), last = static_cast<double>(along.last);
+      along.first = static_cast<std::int64_t>(std::clamp(place(bounds.min[axis]) - 1.0, first, last + 1.0));
+      along.last = static_cast<std::int64_t>(std::clamp(place(bounds.max[axis]) + 1.0, first - 1.0, last));
+    }
+    each_place(part, [&](const FilledPlace& place) {
+      if (!is_cut_out(place.centre)) visit(place);
+    });
+  }
+  /// The lattice's first corner and spacing [m]; 0 along axes that the grid does not have.
+  Vec3 origin() const { return {lattices_[0].origin, lattices_[1].origin, lattices_[2].origin}; }
+  Vec3 spacing() const { return {lattices_[0].spacing, lattices_[1].spacing, lattices_[2].spacing}; }
   /// True if a body without jitter has a particle beside that at `place` along an axis.
   bool has_neighbour(const Vec3& place, int axis, bool above) const;
 
@@ -64,7 +85,11 @@ class Filling {
   // x runs fastest, as in the numbering of grid blocks.
   template <class Visit>
   void each_place(Visit&& visit) const {
-    const Lattice &x = lattices_[0], &y = lattices_[1], &z = lattices_[2];
+    each_place(lattices_, visit);
+  }
+  template <class Visit>
+  void each_place(const std::array<Lattice, 3>& places, Visit&& visit) const {
+    const Lattice &x = places[0], &y = places[1], &z = places[2];
     for (std::int64_t k = z.first; k <= z.last; ++k) {
       for (std::int64_t j = y.first; j <= y.last; ++j) {
         for (std::int64_t i = x.first; i <= x.last; ++i) {

@@ -47,6 +47,8 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_tractions},
       {add_cracks, numbers_of_cracks()},
       {add_sleep, {{"asleep", "1"}}},
+      {add_bed,
+       {{"ground_made", "kg"}, {"ground_put_away", "kg"}, {"ground_kept", "kg"}}},  // after sleep, which it asks
       {add_volumes},
       {add_step_limit},
   };

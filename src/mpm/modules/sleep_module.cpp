@@ -14,7 +14,7 @@ void add_sleep(RunParts& parts) {
                     parts.threads,
                     parts.definition.method.update == UpdateScheme::implicit,
                     parts.halo};
-  parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
+  parts.sleep = &parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
 }
 
 }  // namespace mpm

@@ -1,4 +1,5 @@
 // Ranges of what a definition says, by the tables of its sections.
+#include "mpm/bed/bed_keys.hpp"
 #include "mpm/crack/crack_keys.hpp"
 #include "mpm/rules/section_keys.hpp"
 #include "mpm/sleep/sleep_keys.hpp"
@@ -44,6 +45,9 @@ std::optional<KeyFault> keys_fault(const SimulationDefinition& definition) {
   if (Fault fault = fault_of(contact_keys(), definition.contact)) return fault;
   if (Fault fault = cracks_fault(definition.cracks)) return fault;
   if (Fault fault = transport_fault(definition.transport)) return fault;
+  if (definition.bed) {
+    if (Fault fault = fault_of(bed_keys(), *definition.bed)) return fault;
+  }
   return definition.sleep ? fault_of(sleep_keys(), *definition.sleep) : Fault();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mpm/bed/bed_keys.hpp"
 #include "mpm/crack/crack_keys.hpp"
 #include "mpm/material/law_keys.hpp"
 #include "mpm/math/nearest.hpp"
@@ -61,6 +62,7 @@ std::vector<KeySection> make_sections() {
   sections.insert(sections.end(), others.begin(), others.end());
   sections.push_back(section_of(ground_keys(), "scene/output.md"));
   sections.push_back(section_of(volume_keys(), "scene/volumes.md"));
+  sections.push_back(section_of(bed_keys(), "scene/follow.md"));
   return sections;
 }
 

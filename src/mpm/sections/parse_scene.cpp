@@ -95,10 +95,10 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   ReadContext context;
   context.source = &source;
   const Value top(context, source.root(), "");
-  const Map root(top,
-                 {"name",   "units",     "constants", "geometry", "thickness",    "area",    "grid",    "time",
-                  "method", "gravity",   "materials", "bodies",   "rigid_bodies", "robots",  "contact", "boundaries",
-                  "loads",  "transport", "sleep",     "cracks",   "output",       "metrics", "target",  "volumes"});
+  const Map root(top, {"name",    "units",      "constants", "geometry",  "thickness", "area",         "grid",
+                       "time",    "method",     "gravity",   "materials", "bodies",    "rigid_bodies", "robots",
+                       "contact", "boundaries", "loads",     "transport", "sleep",     "cracks",       "output",
+                       "metrics", "target",     "volumes",   "terrain"});
   Scene scene;
   scene.path = label;
   SimulationDefinition& definition = scene.definition;
@@ -132,9 +132,10 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_sleep(root, scene);
   read_transport(root, scene);
   read_cracks(root, scene);
+  read_volumes(root, scene);
+  read_bed(root, scene);
   const bool takes_implicit = asked && choose_implicit(*asked, root, scene);
   tell_of_averages(scene);
-  read_volumes(root, scene);
   read_metrics(root, scene);
   read_target(root, scene);
   for (const std::string& name : context.constants.unused()) {

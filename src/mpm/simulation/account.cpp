@@ -117,6 +117,7 @@ std::vector<NamedNumber> Simulation::State::numbers() const {
 }
 
 std::pair<std::size_t, std::size_t> Simulation::State::rows_of(std::uint64_t first, std::uint64_t last) const {
+  if (renews_particles()) return {0, sets.front().id.size()};
   if (!over) return {first, last};
   std::size_t begin = 0, end = 0;
   for (const ParticleSet& set : sets) {
@@ -227,7 +228,7 @@ std::uint64_t Simulation::state_hash() const {
   ByteHash hash;
   hash.add(s.time);
   for (const ParticleSet& set : s.sets) {
-    const std::vector<int> place = places_by_id(set, !s.over);
+    const std::vector<int> place = places_by_id(set, !s.over && !s.renews_particles());
     const auto add = [&](const auto& values) {
       for (const int p : place) hash.add(values[p]);
     };

@@ -139,6 +139,7 @@ void Simulation::State::run_period() {
   timed("modules: sync point", [&] {
     for (Module* module : modules.list()) module->at_sync(time);
   });
+  if (services.bed != nullptr) timed("ground: made and put away", [this] { follow_bed(); });
   previous_limit = material_limit;
   material_limit = timed_survey();
   equal_steps(period, material_limit, end);  // ends the run for what is not finite, before it is told of

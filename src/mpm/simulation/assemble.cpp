@@ -286,7 +286,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
-  if (geostatic && options.settle) s.settle();
+  if (geostatic && options.settle && !definition.bed) s.settle();  // where it ends, it would slide
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
@@ -304,6 +304,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.gravity.name = "gravity";
   if (s.over) s.over->divide(s.sets);
   s.sort(0.0);
+  if (s.services.bed != nullptr) s.begin_bed();
   if (s.over) s.over->warn_of_idle(s.sets, s.warnings);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);

@@ -214,7 +214,10 @@ double GlobalQuantities::number(const std::string& name) const {
 }
 
 double GlobalQuantities::mean(const Term& term) const {
-  if (fields_[term.fields.front()] != "temperature") return sum(term) / static_cast<double>(term.last - term.first);
+  if (fields_[term.fields.front()] != "temperature") {
+    const bool renews = simulation_.state_->renews_particles();
+    return sum(term) / static_cast<double>(renews ? simulation_.particles() : term.last - term.first);
+  }
   // Only bodies that have a temperature count: all if it is transported, else those whose law has one.
   double total = 0.0, count = 0.0;
   const Simulation::State& state = *simulation_.state_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mpm/loop/loop.hpp"
 #include "particle_view.hpp"
@@ -295,6 +296,21 @@ std::vector<double> gather_column(Communicator& ranks, const std::vector<SetView
   return column;
 }
 
+/// Places in a list of ids in their ascending order.
+template <class Ids>
+std::vector<std::uint32_t> order_of(const Ids& ids) {
+  std::vector<std::uint32_t> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return ids[a] < ids[b]; });
+  return order;
+}
+
+template <class T>
+void put_in_order(const std::vector<std::uint32_t>& order, std::vector<T>& values) {
+  const std::vector<T> before = values;
+  for (std::size_t i = 0; i < order.size(); ++i) values[i] = before[order[i]];
+}
+
 /// As rows_of(), on the first rank; none on the others.
 std::vector<std::int64_t> gather_rows(Communicator& ranks, const std::vector<SetView>& sets, std::size_t particles,
                                       const ParticleChoice& choice) {
@@ -362,6 +378,12 @@ void Simulation::read_fields(const std::vector<std::string>& names, std::vector<
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
   if (state_->over) return fill_own(sets, fields, state_->threads, columns);
+  if (state_->renews_particles()) {
+    fill_own(sets, fields, state_->threads, columns);
+    const std::vector<std::uint32_t> order = order_of(sets.front().set.id);
+    for (std::vector<double>& column : columns) put_in_order(order, column);
+    return;
+  }
   columns.resize(fields.size());
   for (std::vector<double>& column : columns) column.resize(particles());
   fill(sets, fields, state_->threads, by_id, columns);
@@ -369,6 +391,13 @@ void Simulation::read_fields(const std::vector<std::string>& names, std::vector<
 
 void Simulation::read_particles(const std::vector<std::string>& names, const ParticleChoice& choice,
                                 ParticleColumns& columns) const {
+  if (state_->renews_particles()) {
+    read_own_particles(names, choice, columns);
+    const std::vector<std::uint32_t> order = order_of(columns.ids);
+    put_in_order(order, columns.ids);
+    for (std::vector<float>& column : columns.values) put_in_order(order, column);
+    return;
+  }
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
   const bool whole = choice.stride == 1 && !choice.region;

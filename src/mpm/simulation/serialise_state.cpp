@@ -207,6 +207,7 @@ void Simulation::State::serialise(StateArchive& archive) {
     const StateArchive::Group group(archive, "energy_watch");
     energy_watch.serialise(archive);
   }
+  if (archive.reading() && renews_particles()) sizes.front() = sets.front().id.size();
   if (archive.reading() && over && !archive.merging()) {
     over->meet_as_read(fields);
     if (choice) choice->find_places();

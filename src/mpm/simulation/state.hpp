@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "energy_watch.hpp"
+#include "mpm/bed/following_bed.hpp"
 #include "mpm/contact/contact_reporter.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/modules/run_parts.hpp"
@@ -157,6 +158,14 @@ struct Simulation::State {
   void meet_again();
   /// The same as the sorter: after particles have gone to their ranks, and before these meet.
   std::optional<ParticleRef> sort_particles();
+  /// Ids are not those of the start without a gap: particles come and go.
+  bool renews_particles() const { return services.bed != nullptr; }
+  /// Puts to sleep what carries ground that follows bodies, before the first step. @throws DefinitionError
+  void begin_bed();
+  /// At a sync point: makes and puts away such ground. @throws PhysicsError, ModuleError
+  void follow_bed();
+  /// The particles of some of it, at rest under its weight's stress.
+  ParticleSet make_ground(GroundParticles ground);
   /// Ends the run on all ranks if check() throws on one of them, with its reason. @throws PhysicsError
   void check_together(const std::function<void()>& check);
   /// All that the run remembers (serialise_state.cpp).

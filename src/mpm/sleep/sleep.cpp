@@ -173,6 +173,7 @@ void Sleep::forces_gathered(StepContext& context) {
 // In an implicit step forces are known with the velocities, as accelerations.
 void Sleep::find_unrest(StepContext& context) {
   for (std::size_t f = 0; f < borders_.size(); ++f) find_unrest(*context.fields[f], borders_[f], context.dt);
+  leave_what_stays();
   if (to_wake_.empty()) return;
   ++steps_waited_;
   sort_names(to_wake_);  // those that a look has found are in no order
@@ -319,24 +320,7 @@ void Sleep::before_sort() {
     return std::binary_search(to_wake_.begin(), to_wake_.end(), sleeper.name);
   });
   if (!across_) falls = !sleepers_.empty();
-  const double cell = layout_.smallest_cell();
-  for (SleepingBlocks::Sleeper& sleeper : sleepers_) {
-    const Grid& grid = *parts_.fields[sleeper.name.field];
-    sleeper.forces = std::make_unique<BlockForces>();
-    parts_.probe->find_forces(sleeper.name.field, sleeper.owner - grid.first_owner, *sleeper.forces);
-    for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-      const auto first = static_cast<int>(parts_.sets[s].begin[sleeper.owner]);
-      const auto last = static_cast<int>(parts_.sets[s].begin[sleeper.owner + 1]);
-      if (last > first) {
-        sleeper.rate = std::max(sleeper.rate, parts_.probe->fastest(static_cast<int>(s), first, last, cell));
-      }
-    }
-  }
-  if (!sleepers_.empty()) {
-    const TakenMotion taken = asleep_.put_to_sleep(sleepers_);
-    account_.add(-taken.momentum);
-    energy_ += taken.energy;
-  }
+  fall_asleep();
   for (const BlockName& name : to_wake_) asleep_.wake(name);
   if (falls || !to_wake_.empty()) asleep_.forget_order();
   if (none_asleep()) asleep_.forget_rate();

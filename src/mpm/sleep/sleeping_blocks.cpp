@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "mpm/particles/append.hpp"
+
 namespace mpm {
 namespace {
 
@@ -138,6 +140,36 @@ void SleepingBlocks::wake(const BlockName& name) {
   const auto found = by_name_.find(name);
   if (found == by_name_.end()) return;
   for (std::size_t s = 0; s < sets_.size(); ++s) wake_set(s, *found->second);
+  mass_ -= found->second->mass;
+  by_name_.erase(found);
+  if (by_name_.empty()) mass_ = 0.0;
+}
+
+// Each goes by the last one of the set, which takes its place.
+void SleepingBlocks::take_out_of_set(std::size_t s, SleepingBlock& block) {
+  ParticleSet& set = sets_[s];
+  std::vector<std::uint32_t>& own = block.particles[s];
+  std::sort(own.begin(), own.end());
+  std::size_t last = set.id.size();
+  for (auto place = own.rbegin(); place != own.rend(); ++place) {
+    --last;
+    for (const std::size_t changed : {static_cast<std::size_t>(*place), last})
+      ++set.rest_changes[changed / ParticleSet::kRestGroup];
+    if (*place == last) continue;
+    copy_particle(set, last, *place);
+    const Owned moved = owned_[s][last];
+    moved.block->particles[s][moved.index] = *place;
+    owned_[s][*place] = moved;
+  }
+  set.asleep -= static_cast<int>(own.size());
+  cut_off(set, last);
+  owned_[s].resize(last);
+}
+
+void SleepingBlocks::take_away(const BlockName& name) {
+  const auto found = by_name_.find(name);
+  if (found == by_name_.end()) return;
+  for (std::size_t s = 0; s < sets_.size(); ++s) take_out_of_set(s, *found->second);
   mass_ -= found->second->mass;
   by_name_.erase(found);
   if (by_name_.empty()) mass_ = 0.0;

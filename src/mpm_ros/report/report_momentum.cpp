@@ -26,8 +26,12 @@ MomentumCheck::MomentumCheck(const std::optional<RunInfo>& info) {
     return;
   }
   try {
-    masses_ = particle_masses(*info);
     const SceneFacts facts = scene_facts(*info);
+    if (facts.ground_follows) {
+      obstacle_ = "the scene's ground follows bodies, so that particles come and go between the clouds";
+      return;
+    }
+    masses_ = particle_masses(*info);
     gravity_ = facts.gravity;
     audit_limit_ = audit_limit(facts.precision);
   } catch (const mpm::Error& error) {

@@ -45,6 +45,7 @@ SceneFacts scene_facts(const RunInfo& info) {
     facts.method = text_of(scene.definition);
     facts.axisymmetric = mpm::axisymmetric(scene.definition.geometry);
     facts.gravity = scene.definition.gravity;
+    facts.ground_follows = scene.definition.bed.has_value();
     facts.precision = scene.definition.method.precision;
     if (scene.definition.time.end > 0.0) facts.end = scene.definition.time.end;
     const YAML::Node parameters = YAML::Load(info.parameters);  // run_scene --end is there

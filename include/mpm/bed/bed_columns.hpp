@@ -17,7 +17,7 @@ class BedColumns {
   /// One flag for each column.
   using Flags = std::vector<std::uint8_t>;
 
-  /// Of a grid with z as its last axis; `layout` outlives it.
+  /// Columns of a grid with z as its last axis; `layout` outlives it.
   explicit BedColumns(const GridLayout& layout);
 
   int count() const { return counts_[0] * counts_[1]; }

@@ -51,9 +51,9 @@ class FollowingBed final : public Module {
   void serialise(StateArchive& archive) override;
   void hashed(std::vector<double>& numbers) const override;
 
-  // What a run calls, at the start and at sync points, in this order (simulation/follow_bed.cpp).
+  // Calls of a run, at the start and at sync points, in this order (simulation/follow_bed.cpp).
 
-  /// What is wrong with the places of bodies, in a sentence; nothing where each is on ground that can move.
+  /// Fault of the places of bodies, in a sentence; nothing where each is on ground that can move.
   std::optional<std::string> fault() const;
   /// Finds what is to be put away and made. True if there is anything. Particles are sorted.
   bool look();

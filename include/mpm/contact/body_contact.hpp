@@ -61,7 +61,7 @@ class BodyContact {
   void begin();
   /// Compliances anew, when those of robots have changed.
   void find_compliance();
-  /// Of one solution: begin_sweeps(), then sweeps, each followed by change() and go_on() (conjugate_sweeps.hpp).
+  /// Parts of one solution: begin_sweeps(), then sweeps, each followed by change() and go_on() (conjugate_sweeps.hpp).
   void begin_sweeps() { conjugate_.emplace(memory_); }
   SweepProgress sweep(ContactPass pass, bool back);
   double change() const { return conjugate_->change(rows_); }
@@ -85,7 +85,7 @@ class BodyContact {
   struct Row {
     Vec3 normal;    ///< out of the other one, towards the body
     Vec3 place;     ///< world [m]
-    Vec3 velocity;  ///< of the body against the other, the part that is prescribed [m/s]
+    Vec3 velocity;  ///< velocity of the body against the other, the part that is prescribed [m/s]
     Vec3 impulse = Vec3::Zero();
     double allowed = 0.0, friction = 0.0, adhesion = 0.0;
     double with_body[2] = {};  ///< compliance along the normal, and the largest along the surface [1/kg]

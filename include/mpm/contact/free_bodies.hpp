@@ -33,13 +33,13 @@ class FreeBodies {
   void find_meetings(double dt) {
     if (meeting_.any()) meeting_.find(dt);
   }
-  /// Where they may, for a solution that then begins; null where none may.
+  /// Rows of that, for a solution that then begins; null where none may.
   BodyContact* begin_meeting() {
     if (!meeting_.touches()) return nullptr;
     meeting_.begin();
     return &meeting_;
   }
-  /// The same within a solution, when settle() has changed compliances.
+  /// Rows of that within a solution, when settle() has changed compliances.
   BodyContact* same_meeting() {
     if (!meeting_.touches()) return nullptr;
     meeting_.find_compliance();

@@ -70,7 +70,7 @@ struct PointContactSettings {
   HeatSink* heat = nullptr;       ///< receiver of friction and touch, if there is heat
   bool sharp_edges = true;        ///< true if points see that faces end (contact/edge_cover.hpp)
   Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
-  BodyContactSettings meeting;    ///< of rigid bodies with each other and with walls
+  BodyContactSettings meeting;    ///< contact of rigid bodies with each other and with walls
 };
 
 class PointContact final : public Stage, public ContactReporter {

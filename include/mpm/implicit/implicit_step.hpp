@@ -45,7 +45,7 @@ struct ImplicitSettings {
   std::array<WallDefinition, 6> walls;
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
-  BodyContactSettings meeting;  ///< of rigid bodies with each other and with walls
+  BodyContactSettings meeting;  ///< contact of rigid bodies with each other and with walls
   bool loads = false;           ///< true if forces act on nodes that are not in proportion to their mass
   Isa isa = Isa::plain;
   SweepBudget* budget = nullptr;  ///< budget of the sync period that steps are part of; null: they take their time

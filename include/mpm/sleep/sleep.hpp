@@ -94,7 +94,7 @@ class Sleep final : public Stage {
   void lay_asleep(const Which& which);
   /// The particles of a block asleep are there no more, nor is its weight.
   void take_away(const BlockName& name);
-  /// When particles have come to sets or gone from them (particles/append.hpp).
+  /// Call when particles have come to sets or gone from them (particles/append.hpp).
   void follow_moves() { asleep_.follow_moves(); }
   const SleepingBlocks& asleep() const { return asleep_; }
 

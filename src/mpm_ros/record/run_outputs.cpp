@@ -167,8 +167,8 @@ void RunOutputs::command(const JointOrder& order) {
 }
 
 void RunOutputs::state_set(const mpm::StateSet& state) {
-  put(topics::kStatesSet, to_message(state, simulation_.time(), options_.world_frame, stamps_));
-  end_writing();
+  sinks_.put(topics::kStatesSet, to_message(state, simulation_.time(), options_.world_frame, stamps_));
+  sinks_.end_writing();
 }
 
 void RunOutputs::sync(bool last, double real_time_factor) {

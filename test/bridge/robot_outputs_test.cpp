@@ -219,6 +219,29 @@ TEST_F(RobotOutputsOfARun, ARunThatGoesOnBeginsWithItsRobots) {
     EXPECT_NEAR(state.effort[1], -kCarried * kGravity, 1e-9 * kCarried * kGravity);
 }
 
+// The slide gets its speed within the interval in whose middle the run is saved.
+TEST_F(RobotOutputsOfARun, MeansThatAreUnderWayGoOnFromACheckpoint) {
+  write_scene("0.01 * sin(20 * t)", "0.2");
+  const std::string checkpoint = folder_.file("middle.h5");
+  const std::unique_ptr<mpm_ros::Run> whole = begun(folder_.file("whole.bag"));
+  advance(*whole, 3);
+  whole->save(checkpoint);
+  advance(*whole, 2);
+  whole->finish();
+  const std::unique_ptr<mpm_ros::Run> rest = begun(folder_.file("rest.bag"), checkpoint);
+  advance(*rest, 2);
+  rest->finish();
+  const auto all = messages_of<RobotStates>(folder_.file("whole.bag"), "robots"),
+             again = messages_of<RobotStates>(folder_.file("rest.bag"), "robots");
+  ASSERT_EQ(all.size(), 2U);  // at the start and after five sync points
+  ASSERT_EQ(again.size(), 2U);
+  EXPECT_EQ(again[0].header.stamp.toNSec(), 3U * kSync);
+  // Held at its speed, the slide carries the weight alone; the mean has the push of the start in it.
+  EXPECT_NEAR(again[0].robots[0].effort[1], -kCarried * kGravity, 1e-9 * kCarried * kGravity);
+  EXPECT_NEAR(again[1].robots[0].effort[1], kCarried * (0.2 / (5e-9 * kSync) - kGravity), 1e-9 * kCarried * kGravity);
+  EXPECT_EQ(again[1], all[1]);
+}
+
 TEST_F(RobotOutputsOfARun, ARunThatStopsOrFailsBetweenTwoMessagesEndsWithItsRobots) {
   for (const bool fails : {false, true}) {
     const std::string bag = folder_.file(fails ? "failed.bag" : "stopped.bag");

@@ -109,9 +109,9 @@ TEST(SetState, APrescribedBodyStaysWhereItIsPut) {
 // though the points that knew it are near.
 TEST(SetState, NoPointRemembersABodyThatWasPutElsewhere) {
   for (const bool put : {false, true}) {
-    std::string text = bed();
-    const std::string smooth = "[0.2, 0.3]}, friction: 0.3";
-    text.replace(text.find(smooth), smooth.size(), "[0.2, 0.06]}, friction: {coefficient: 0.3, adhesion: 5 kPa}");
+    std::string text = bed("contact: {friction: 0.3, adhesion: 5 kPa}\n");
+    const std::string own = "[0.2, 0.3]}, friction: 0.3";  // a law of its own, without adhesion
+    text.replace(text.find(own), own.size(), "[0.2, 0.06]}");
     Simulation run = run_of(text);
     run.command_pose(1, Pose{Vec3(0.2, 0.0, 0.048), Quat::Identity()}, 40'000'000);
     advance(run, 22);

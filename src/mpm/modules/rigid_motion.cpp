@@ -31,7 +31,7 @@ class RigidMotion final : public Module {
       report.add("free_potential", NamedEnergy::Kind::of_bodies, of.potential);
       report.add("free_work", NamedEnergy::Kind::at_bodies, of.wrench_work + of.drive_work);
       report.add("free_loss", NamedEnergy::Kind::at_bodies, of.contact_loss);
-      if (of.set_work != 0.0) report.add("free_set", NamedEnergy::Kind::at_bodies, of.set_work);
+      report.add("free_set", NamedEnergy::Kind::at_bodies, of.set_work);
     }
   }
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override {

@@ -34,7 +34,7 @@ class RobotModule final : public Module {
       report.add("robot_drive", NamedEnergy::Kind::at_bodies, of.drive);
       report.add("robot_joints", NamedEnergy::Kind::at_bodies, of.damping + of.friction + of.limit);
       report.add("robot_loss", NamedEnergy::Kind::at_bodies, of.loss);
-      if (of.set != 0.0) report.add("robot_set", NamedEnergy::Kind::at_bodies, of.set);
+      report.add("robot_set", NamedEnergy::Kind::at_bodies, of.set);
     }
   }
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override {

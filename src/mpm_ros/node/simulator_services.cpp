@@ -106,16 +106,14 @@ std::string SimulatorNode::reset(const std::shared_ptr<const Subject>& subject, 
 void SimulatorNode::reset_with(const Reset::Request& request, Reset::Response& response) {
   bool success = false;
   try {
-    std::shared_ptr<const Subject> subject = load_subject(request.set);
+    std::vector<std::string> set = request.set;
     if (!request.start.empty()) {
-      std::vector<std::string> set = request.set;
-      for (std::string& one : start_overrides(request.start, subject->scene, response.message)) {
+      for (std::string& one : start_overrides(request.start, load(set), response.message)) {
         set.push_back(std::move(one));
       }
       if (!response.message.empty()) return;
-      subject = load_subject(set);
     }
-    response.message = reset(subject, success);
+    response.message = reset(load_subject(set), success);
   } catch (const std::exception& error) {
     response.message = refusal_of(error);
   }

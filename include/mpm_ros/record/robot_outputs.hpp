@@ -25,8 +25,8 @@ class RobotOutputs {
   /// time they sum up to the impulse that was applied.
   static sensor_msgs::JointState joints(const mpm::RobotReport& now, const mpm::RobotReport& last, double interval);
   static std::vector<SensorMessage> sensors(const mpm::RobotReport& now, const mpm::RobotReport& last, double interval);
-  /// Where the base links are, for tf: from there on robot_state_publisher has the links. Without those that are called
-  /// as the world's frame is.
+  /// Places of the base links, for tf: from there on robot_state_publisher has the links. A base that is called as the
+  /// world's frame is left out.
   static std::vector<mpm::BodyState> bases(const std::vector<mpm::RobotDefinition>& robots,
                                            const std::vector<mpm::RobotReport>& now, const std::string& world_frame);
 

@@ -13,14 +13,16 @@ PERIOD = 0.8  # [s] of a hop
 REST = 0.3  # [s] after which the leg stretches
 LINK = 0.2  # [m] from hip to knee, and from knee to the middle of the foot
 FOOT = 0.05  # [m] radius
+HIP = 2 * LINK * math.cos(math.radians(50)) + FOOT  # [m] height of the hip at the start
+STEP = 0.005  # [s] between two states
 MASSES = {"body": 2.0, "thigh": 0.4, "shank": 0.3}  # [kg]
 
 
 class State:
-    """Time [s], height [m] and speed upwards [m/s] of the centre of mass, of the lowest point of the foot the height [m], upward force
-    of the sand on it [N]."""
+    """Time [s], height [m] and speed upwards [m/s] of the centre of mass, height of the foot's lowest point [m], mean force of
+    the sand upwards since the state before [N]."""
 
-    def __init__(self, obs, hip_height):
+    def __init__(self, obs):
         leg = obs.robots["leg"]
         joint = {name: k for k, name in enumerate(leg.joints)}
         (body, hip, knee), (rate, hip_rate, knee_rate) = ([of[joint[name]] for name in ("guide", "hip", "knee")]
@@ -29,16 +31,21 @@ class State:
         thigh, shank, mass = MASSES["thigh"], MASSES["shank"], sum(MASSES.values())
         self.time = obs.time
         self.force = obs["leg/shank"].force[2]
-        self.foot = hip_height + body - LINK * (math.cos(hip) + math.cos(lean)) - FOOT
+        self.foot = HIP + body - LINK * (math.cos(hip) + math.cos(lean)) - FOOT
         # Centres of mass: of the thigh in its middle, of the shank 0.15 m below the knee.
-        self.height = hip_height + body - ((0.1 * thigh + LINK * shank) * math.cos(hip) + 0.15 * shank * math.cos(lean)) / mass
+        self.height = HIP + body - ((0.1 * thigh + LINK * shank) * math.cos(hip) + 0.15 * shank * math.cos(lean)) / mass
         self.speed = rate + ((0.1 * thigh + LINK * shank) * math.sin(hip) * hip_rate +
                              0.15 * shank * math.sin(lean) * lean_rate) / mass
 
 
-def hop(sim, hip_height, step=0.005):
-    """States of the next period; `hip_height`: where the hip was at the start of the run [m], `step`: time between them [s]."""
-    return [State(sim.step(step), hip_height) for _ in range(round(PERIOD / step))]
+def hop(sim):
+    """States of the next period, STEP apart."""
+    return [State(sim.step(STEP)) for _ in range(round(PERIOD / STEP))]
+
+
+def impulse(states):
+    """Of the sand on the leg upwards [N s]."""
+    return sum(state.force for state in states) * STEP
 
 
 def flight(states):
@@ -55,18 +62,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--hops", type=int, default=3)
     options = parser.parse_args()
-    hip_height = 2 * LINK * math.cos(math.radians(50)) + FOOT  # at the start
-    print("| hop | speed [m/s] | rise [mm] | of a stone [mm] | in the air [s] | foot in the sand before [mm] | after [mm] |")
-    print("|---|---|---|---|---|---|---|")
+    weight = sum(MASSES.values()) * GRAVITY
+    print("| hop | speed [m/s] | rise [mm] | of a stone [mm] | in the air [s] | foot in the sand before [mm] | after [mm] | "
+          "impulse / (weight period) |\n|---|---|---|---|---|---|---|---|")
     with mpm_ros.Simulator(SCENE) as sim:
-        before = sim.step(REST)
-        sunk = -State(before, hip_height).foot
+        sunk = -State(sim.step(REST)).foot
         for number in range(1, options.hops + 1):
-            states = hop(sim, hip_height)
+            states = hop(sim)
             off, on, top = flight(states)
             print(f"| {number} | {off.speed:.3f} | {1000 * (top.height - off.height):.1f} | "
                   f"{1000 * off.speed ** 2 / (2 * GRAVITY):.1f} | {on.time - off.time:.3f} | {1000 * sunk:.1f} | "
-                  f"{-1000 * states[-1].foot:.1f} |", flush=True)
+                  f"{-1000 * states[-1].foot:.1f} | {impulse(states) / (weight * PERIOD):.3f} |", flush=True)
             sunk = -states[-1].foot
 
 

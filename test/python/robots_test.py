@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Robots in the node: commands of joints and bases by steps and on topics, where they begin and are set, what is
-published and recorded, bags run again. 30 s. Skipped in a build without robots."""
+published and recorded, bags run again, launch files. 35 s. Skipped in a build without robots."""
 import os
+import subprocess
 import tempfile
 import threading
 import unittest
@@ -9,6 +10,7 @@ import unittest
 import mpm_ros
 import numpy as np
 import rosbag
+import rospkg
 import rospy
 from mpm_ros.srv import SetState, Step
 from sensor_msgs.msg import JointState
@@ -173,6 +175,27 @@ class Robots(unittest.TestCase):
                 command.publish(JointState(name=["down"], velocity=[]))
                 answer = step(count=5, after_received=3)
                 np.testing.assert_allclose(answer.robots[0].velocity[1], -0.1)
+
+
+class Launches(unittest.TestCase):
+    def test_examples_start_simulator_robot_and_rviz(self):
+        for path in ("excavator/excavator", "leg/leg", "rover/rover", "wheel_test_rig/rig"):
+            with self.subTest(path=path):
+                nodes = run("roslaunch", "--nodes", source_file(f"examples/{path}.launch"), "rviz:=true").split()
+                self.assertEqual(set(nodes), {"/mpm/simulator", "/robot_state_publisher", "/mpm/watch", "/remove_parameters"})
+
+    @unittest.skipUnless("robot_state_publisher" in rospkg.RosPack().list(),
+                         "ros-robot-state-publisher is not installed; scripts/install_packages test does so")
+    def test_a_launch_ends_with_its_scene(self):
+        with simulator():
+            pass  # skipped in a build without robots
+        with running_master():
+            done = subprocess.run(["roslaunch", source_file("examples/leg/leg.launch"), "pacing:=free",
+                                   "set:=[time.end=0.02, grid.cell=0.04]"], capture_output=True, text=True, check=False,
+                                  timeout=150)
+        said = done.stdout + done.stderr
+        self.assertEqual(done.returncode, 0, said)
+        self.assertIn("process has finished cleanly", said)
 
 
 if __name__ == "__main__":

@@ -132,7 +132,7 @@ TEST(RobotContact, ALightLegStandsOnClayWithoutGainingEnergy) {
       most = std::max(most, robot.energies.kinetic + robot.energies.potential - start);
       speed = robot.base_twist.linear.norm();
     }
-    EXPECT_LT(most, 1e-3 * 0.0173 * 9.81 * 0.02) << update;  // part of the energy of the fall
+    EXPECT_LT(most, 1e-3 * 0.0173 * 9.81 * 0.02) << update;  // energy of the fall: its mass, g and height
     EXPECT_LT(speed, 0.05) << update;
     // Implicit steps let a body act about half a cell, 2 cm, further out (implicit/tool_rows.hpp).
     const double height = clear ? 0.26 : 0.24;

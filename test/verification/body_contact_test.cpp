@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "free_run.hpp"
+#include "mpm/simulation/state_set.hpp"
 #include "page.hpp"
 
 namespace body_contact_test {
@@ -153,16 +154,18 @@ TEST(BodyContact, AStackStands) {
   }
 }
 
-// A block that nothing but clay holds up is pressed by a box that lies on it: the clay carries both weights. The block
-// is a fifth of the box's mass, so that a contact that lags a step behind would shake it.
-TEST(BodyContact, ClayCarriesABoxThroughABlock) {
-  const std::string bodies =
-      R"(  - {name: plate, shape: {box: {size: [0.16, 0.16, 0.1]}}, pose: {position: [-0.9, -0.9, 0.25]},
+/// A block on clay, and a load on it.
+const char* const kLoadOnBlock =
+    R"(  - {name: plate, shape: {box: {size: [0.16, 0.16, 0.1]}}, pose: {position: [-0.9, -0.9, 0.25]},
      free: {mass: 0.4}, collide: true, friction: 0.3}
   - {name: load, shape: {box: {size: [0.1, 0.1, 0.1]}}, pose: {position: [-0.9, -0.9, 0.351]}, free: {mass: 2}, collide: true}
 )";
+
+// A block that nothing but clay holds up is pressed by a box that lies on it: the clay carries both weights. The block
+// is a fifth of the box's mass, so that a contact that lags a step behind would shake it.
+TEST(BodyContact, ClayCarriesABoxThroughABlock) {
   for (const std::string method : {"{update: usavg}", "{update: implicit}"}) {
-    mpm::Simulation run = run_of(among_bodies(bodies, "[0, 0, -9.81]", "{all: slip}", method));
+    mpm::Simulation run = run_of(among_bodies(kLoadOnBlock, "[0, 0, -9.81]", "{all: slip}", method));
     run_until(run, 1.0);
     run.take_contact(0);
     run_until(run, 2.0);
@@ -174,12 +177,73 @@ TEST(BodyContact, ClayCarriesABoxThroughABlock) {
   }
 }
 
+// A plate pushes a box over the rough floor. What it does is what motion, friction and the impact take.
+TEST(BodyContact, APlatePushesABoxAndItsWorkIsCounted) {
+  mpm::Simulation run = run_of(among_bodies(
+      R"(  - {name: plate, shape: {box: {size: [0.1, 0.4, 0.4]}}, pose: {position: [0, 0, 0.25]}, collide: {friction: 0},
+     motion: {velocity: [0.5, 0, 0]}}
+  - {name: box, shape: {box: {size: [0.2, 0.2, 0.2]}}, pose: {position: [0.2, 0, 0.1]}, collide: {friction: 0.4}, free: {mass: 2}}
+)"));
+  const double start = run.free_bodies()[0].potential;
+  run_until(run, 1.0);
+  const mpm::EnergyReport energy = run.state().energy;
+  const double weight = 2.0 * kFreeGravity, way = run.bodies()[1].pose.position.x() - 0.2;
+  EXPECT_NEAR(way, 0.45, 1e-3);  // the plate is 0.05 m away at the start
+  // Friction over the way, and as much as the box moves with for the impact, which takes as much again.
+  const double expected = 0.4 * weight * way + 2.0 * 0.5 * 0.5;
+  EXPECT_NEAR(energy.of("collision_work"), expected, 2e-3 * expected);
+  EXPECT_NEAR(energy.of("free_kinetic") + energy.of("free_potential") - start + energy.of("free_loss"),
+              energy.of("collision_work"), 1e-3 * expected);
+}
+
+// A solid disc has 2/3 of the acceleration of one that does not roll.
+TEST(BodyContact, ADiscRollsDownASlopeOfAPlane) {
+  const double angle = 0.3, end = 0.4;
+  const Vec3 place = Vec3(-0.3 * std::cos(angle), 0.0, 0.3 * std::sin(angle)) + 0.1 * away(angle);
+  mpm::Simulation run =
+      run_of(fmt::format(R"(
+name: plane
+geometry: plane_strain
+gravity: [0, -9.81]
+grid: {{cell: 0.1, min: [-1, -1], max: [1, 1]}}
+time: {{end: 2, sync: 0.002, step: 0.001}}
+method: {{update: usavg}}
+materials: [{{name: clay, law: j2_plasticity, density: 1000, young: 0.1 MPa, poisson: 0.3, yield_stress: 10 kPa}}]
+bodies: [{{name: block, material: clay, shape: {{box: {{min: [-1, -1], max: [-0.8, -0.8]}}}}}}]
+boundaries: {{all: slip}}
+rigid_bodies:
+  - {{name: slope, shape: {{box: {{size: [1.4, 0.2]}}}}, pose: {{position: [{}, {}], rpy: [0, {}, 0]}}, collide: true}}
+  - {{name: disc, shape: {{sphere: {{radius: 0.1}}}}, pose: {{position: [{}, {}]}}, free: {{density: 1000}}, collide: true}}
+)",
+                         -0.1 * std::sin(angle), -0.1 * std::cos(angle), angle, place.x(), place.z()));
+  run_until(run, end);
+  const double expected = 2.0 / 3.0 * kFreeGravity * std::sin(angle) * end;
+  EXPECT_NEAR(run.bodies()[1].twist.linear.dot(along(angle)), expected, 1e-4 * expected);
+  EXPECT_NEAR(run.bodies()[1].twist.angular.y(), expected / 0.1, 1e-4 * expected / 0.1);
+}
+
 TEST(BodyContact, SameBitsForAnyNumberOfThreads) {
-  const std::string text = among_bodies(box_on_slope(0.5, 0.3));
-  mpm::Simulation one = run_of(text), two = run_of(text, {}, 2);
-  run_until(one, 0.1);
-  run_until(two, 0.1);
-  EXPECT_EQ(one.state_hash(), two.state_hash());
+  for (const std::string& bodies : {box_on_slope(0.5, 0.3), std::string(kLoadOnBlock)}) {
+    const std::string text = among_bodies(bodies);
+    mpm::Simulation one = run_of(text), two = run_of(text, {}, 2);
+    run_until(one, 0.1);
+    run_until(two, 0.1);
+    EXPECT_EQ(one.state_hash(), two.state_hash());
+  }
+}
+
+TEST(BodyContact, StatesThatOverlapAreRefused) {
+  mpm::Simulation run = run_of(among_bodies(kLoadOnBlock));
+  run_until(run, 0.05);
+  const mpm::Pose before = run.bodies()[1].pose;
+  mpm::StateSet set;
+  set.name = "load";
+  set.pose = mpm::Pose{{-0.9, -0.9, 0.33}, mpm::Quat::Identity()};
+  EXPECT_THROW(run.set_state(set), mpm::RigidError);
+  EXPECT_EQ(run.bodies()[1].pose.position, before.position);
+  set.pose->position.z() = 0.4;
+  run.set_state(set);
+  EXPECT_EQ(run.bodies()[1].pose.position.z(), 0.4);
 }
 
 TEST(BodyContact, OverlapsAtTheStartAreRefused) {

@@ -35,7 +35,8 @@ struct BodyWall {
 
 struct BodyContactSettings {
   GeometryKind geometry = GeometryKind::solid;
-  double cell = 0.0;  ///< [m]
+  double cell = 0.0;     ///< [m]
+  double gravity = 0.0;  ///< [m/s^2]
   std::vector<BodyWall> walls;
 };
 
@@ -44,13 +45,17 @@ struct BodyImpulse {
   int body = 0, other = -1;  ///< -1: a wall
   Vec3 impulse, place;       ///< [N s]; world [m]
   double loss = 0.0;         ///< energy that friction and impact take [J]
+  double pushed = 0.0;       ///< work of the one whose motion is prescribed on the other [J]
 };
 
 class BodyContact {
  public:
-  /// `bodies` must outlive this. @throws RigidError when two of them, or one and a wall, overlap
+  /// `bodies` must outlive this. @throws RigidError as check_overlaps()
   BodyContact(const std::vector<RigidBody*>& bodies, const BodyContactSettings& settings);
 
+  /// @throws RigidError when two bodies that collide, or one and a wall, overlap by more than a hundredth of the
+  /// smaller one's size. `with`: the one that is looked at; null for all.
+  void check_overlaps(const RigidBody* with = nullptr) const;
   /// True if some body may meet another one, or a wall, in the course of the run.
   bool any() const { return !pairs_.empty(); }
   /// Finds the rows of a step.
@@ -72,7 +77,8 @@ class BodyContact {
   void each_impulse(bool with_loss, Visit&& visit) const {
     for (const Row& row : rows_) {
       if (row.impulse.isZero(0.0)) continue;
-      visit(BodyImpulse{row.body, row.other, row.impulse, row.place, with_loss ? loss_of(row) : 0.0});
+      visit(BodyImpulse{row.body, row.other, row.impulse, row.place, with_loss ? loss_of(row) : 0.0,
+                        with_loss ? -row.impulse.dot(row.velocity) : 0.0});
     }
   }
 
@@ -95,18 +101,20 @@ class BodyContact {
     DynamicMotion *motion = nullptr, *other_motion = nullptr;  ///< null where prescribed
   };
   struct Body {
-    std::vector<TouchPoint> points;
-    double reach = 0.0;  ///< distance of the farthest point from the origin [m]
-    double size = 0.0;   ///< [m]
+    std::vector<TouchPoint> points;  ///< in the order of x
+    double largest = 0.0;            ///< radius of the largest ball [m]
+    double reach = 0.0;              ///< distance of the farthest point from the origin [m]
+    double size = 0.0;               ///< [m]
   };
 
   /// Calls `found(place, gap, normal)`, world, for each point of the body within `margin` of the other one.
   template <class Found>
   void look(int body, int other, double margin, Found&& found) const;
-  void check_start() const;
-  void find(const Pair& pair, double dt);
+  void find(const Pair& pair, double margin, double dt);
   void add(int body, int other, const Vec3& place, double gap, const Vec3& normal, double friction, double dt);
   double speed(int body) const;
+  /// Distance within which points may touch in a step of dt [m].
+  double margin(double dt) const;
   Vec3 slip(const Row& row, bool with_prescribed) const;
   double loss_of(const Row& row) const;
   template <ContactPass Kind>

@@ -7,6 +7,7 @@
 
 #include "mpm/contact/body_contact.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/energy.hpp"
 
 namespace mpm {
 
@@ -85,10 +86,21 @@ class FreeBodies {
     meeting_.each_impulse(with_loss, [&](const BodyImpulse& given) {
       // The loss counts once: with a body that can move.
       const bool first = bodies_[given.body]->dynamic_motion() != nullptr;
+      const int prescribed = first ? given.other : given.body;
+      // The drives of a robot have the work of its links.
+      if (prescribed >= 0 && bodies_[prescribed]->link_motion() == nullptr) pushed_ += given.pushed;
       give(given.body, given.impulse, given.place, first ? given.loss : 0.0);
       if (given.other >= 0) give(given.other, -given.impulse, given.place, first ? 0.0 : given.loss);
     });
   }
+  /// "collision_work", of bodies with a prescribed motion on others.
+  void energies(EnergyReport& report) const {
+    if (meeting_.any()) report.add("collision_work", NamedEnergy::Kind::at_bodies, pushed_);
+  }
+  void serialise(StateArchive& archive) {
+    if (meeting_.any()) archive.value("collision_work", pushed_);
+  }
+  void check_overlaps(const RigidBody& body) const { meeting_.check_overlaps(&body); }
   /// Call when all impulses are booked: gives the bodies the velocity that contact left them.
   void finish() {
     each([](RigidBody& body, FreeMotion& motion, Taken& taken) {
@@ -129,6 +141,7 @@ class FreeBodies {
   std::vector<Taken> taken_;
   std::vector<Articulation*> robots_;
   BodyContact meeting_;
+  double pushed_ = 0.0;  ///< [J]
 };
 
 }  // namespace mpm

@@ -93,6 +93,7 @@ class PointContact final : public Stage, public ContactReporter {
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void energies(EnergyReport& report) const override;
   ContactLedger* ledger_of(const RigidBody& body) override;
+  void check_put(const RigidBody& body) const override { free_.check_overlaps(body); }
   void body_put(const RigidBody& body) override;
   void serialise(StateArchive& archive) override;
 

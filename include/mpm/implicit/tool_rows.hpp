@@ -87,6 +87,9 @@ class ToolRows {
   /// Books the impulses, with the nodes as they are now, gives free bodies the velocities that they have left them, and
   /// keeps them for the next step.
   void finish(const std::vector<Node>& nodes, double dt);
+  void energies(EnergyReport& report) const { free_.energies(report); }
+  /// @throws RigidError when the body overlaps others that it collides with
+  void check_overlaps(const RigidBody& body) const { free_.check_overlaps(body); }
   /// Adds what rows give to the components of velocity that are held.
   void add_to_held(HeldImpulses& held) const;
 

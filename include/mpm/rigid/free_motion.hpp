@@ -53,7 +53,7 @@ struct BodyMomentum {
 /// Counts since the start of the run: momentum = that of the start + contact + gravity + wrench + drive + set.
 struct FreeAccount {
   BodyMomentum initial_momentum;
-  BodyMomentum contact;  ///< from the material
+  BodyMomentum contact;  ///< from the material, other bodies and walls
   BodyMomentum gravity;
   BodyMomentum wrench;        ///< applied by apply_wrench()
   BodyMomentum drive;         ///< needed to keep prescribed velocities

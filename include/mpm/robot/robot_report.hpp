@@ -35,8 +35,8 @@ struct RobotEnergies {
   double damping = 0.0;  ///< work of damping in joints, at most 0 as those below
   double friction = 0.0;
   double limit = 0.0;
-  double contact = 0.0;  ///< work of the material on the links
-  double loss = 0.0;     ///< lost where links and material met, sliding left out
+  double contact = 0.0;  ///< work of the material and of other bodies on the links
+  double loss = 0.0;     ///< lost where links met the material, sliding left out, and other bodies
   double set = 0.0;      ///< given by Simulation::set_state()
 };
 

@@ -93,6 +93,8 @@ class Module {
   /// Called at the end of a sync period; `time` [ns]. @throws Error when a body is at a forbidden place
   virtual void at_sync(std::int64_t /*time*/) {}
 
+  /// Called before that is accepted. @throws Error when the body cannot be where it is now
+  virtual void check_put(const RigidBody&) const {}
   /// Called between two steps when a rigid body has been put elsewhere: what the module remembers of it is of no use.
   virtual void body_put(const RigidBody&) {}
   /// Called before particles are sorted: the last chance to move them or to choose their velocity fields.

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/touch_points.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kNear = 1e-3;         ///< cells: the least distance within which a point may touch in a step
+constexpr double kNear = 1e-2;         ///< cells: the least distance within which a point may touch in a step
 constexpr double kLookDepth = 1e-3;    ///< part of the body's size
 constexpr double kMostOverlap = 0.01;  ///< at the start, part of the smaller body's size
 
@@ -20,6 +21,22 @@ bool meets(const RigidBody& one, const RigidBody& two) {
     return std::find(names.begin(), names.end(), other.name()) != names.end();
   };
   return one.definition().collide && two.definition().collide && !excepts(one, two) && !excepts(two, one);
+}
+
+/// Box of a body's bounds in the frame of another pose, or without end.
+Box box_around(const RigidBody& body, const Pose& frame) {
+  const Box bounds = body.surface().bounds();
+  Box box;
+  if (!bounds.min.allFinite() || !bounds.max.allFinite()) {
+    return {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 at((corner & 1) != 0 ? bounds.max.x() : bounds.min.x(),
+                  (corner & 2) != 0 ? bounds.max.y() : bounds.min.y(),
+                  (corner & 4) != 0 ? bounds.max.z() : bounds.min.z());
+    box.add(frame.to_body(body.pose().to_world(at)));
+  }
+  return box;
 }
 
 bool can_move(const RigidBody& body) { return body.free_motion() != nullptr || body.link_motion() != nullptr; }
@@ -35,7 +52,10 @@ BodyContact::BodyContact(const std::vector<RigidBody*>& bodies, const BodyContac
     Body& own = touching_[b];
     own.points = touch_points(body.surface(), planar(settings_.geometry));
     Box box;
+    std::stable_sort(own.points.begin(), own.points.end(),
+                     [](const TouchPoint& a, const TouchPoint& b) { return a.place.x() < b.place.x(); });
     for (const TouchPoint& point : own.points) {
+      own.largest = std::max(own.largest, point.radius);
       own.reach = std::max(own.reach, point.place.norm() + point.radius);
       box.add(point.place - Vec3::Constant(point.radius));
       box.add(point.place + Vec3::Constant(point.radius));
@@ -52,7 +72,7 @@ BodyContact::BodyContact(const std::vector<RigidBody*>& bodies, const BodyContac
           {b, -1 - static_cast<int>(w), std::min(friction, settings_.walls[w].friction.value_or(friction))});
     }
   }
-  check_start();
+  check_overlaps();
 }
 
 template <class Found>
@@ -76,7 +96,13 @@ void BodyContact::look(int body, int other, double margin, Found&& found) const 
   // A corner looks from a little inside its body: where it lies on an edge of the other one, it then sees the face that
   // the body lies on.
   const double depth = kLookDepth * touching_[body].size;
-  for (const TouchPoint& point : touching_[body].points) {
+  const Box near = box_around(met, pose).grown(margin + depth + touching_[body].largest);
+  const auto& points = touching_[body].points;
+  const auto first = std::lower_bound(points.begin(), points.end(), near.min.x(),
+                                      [](const TouchPoint& point, double x) { return point.place.x() < x; });
+  for (auto at_point = first; at_point != points.end() && at_point->place.x() <= near.max.x(); ++at_point) {
+    const TouchPoint& point = *at_point;
+    if (!near.contains(point.place)) continue;
     SurfacePoint at;
     const Vec3 inward = turn * (depth * point.inward);
     if (!met.surface().within(turn * point.place + shift + inward, margin + depth + point.radius, at)) continue;
@@ -87,8 +113,9 @@ void BodyContact::look(int body, int other, double margin, Found&& found) const 
   }
 }
 
-void BodyContact::check_start() const {
+void BodyContact::check_overlaps(const RigidBody* with) const {
   for (const Pair& pair : pairs_) {
+    if (with != nullptr && with != bodies_[pair.body] && (pair.other < 0 || with != bodies_[pair.other])) continue;
     double least = touching_[pair.body].size, deepest = 0.0;
     const auto note = [&](const Vec3&, double gap, const Vec3&) { deepest = std::min(deepest, gap); };
     look(pair.body, pair.other, 0.0, note);
@@ -101,8 +128,8 @@ void BodyContact::check_start() const {
     const std::string other =
         pair.other < 0 ? "the wall " + settings_.walls[-1 - pair.other].name : "'" + bodies_[pair.other]->name() + "'";
     throw RigidError(fmt::format(
-        "'{}' and {} overlap by {:.3g} m at the start, and are to collide; put them apart{}",
-        bodies_[pair.body]->name(), other, -deepest,
+        "'{}' and {} overlap by {:.3g} m, and are to collide; put them apart{}", bodies_[pair.body]->name(), other,
+        -deepest,
         pair.other < 0 ? ", or leave collide out" : ", or name one in collide: {except: [...]} of the other"));
   }
 }
@@ -112,17 +139,27 @@ double BodyContact::speed(int body) const {
   return twist.linear.norm() + twist.angular.norm() * touching_[body].reach;
 }
 
-void BodyContact::find(double dt) {
-  rows_.clear();
-  for (const Pair& pair : pairs_) find(pair, dt);
+// Of all bodies: one that is hit in this step may be as fast as the one that hits it.
+double BodyContact::margin(double dt) const {
+  double fastest = 0.0, gained = 0.0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b]->definition().collide) continue;
+    fastest = std::max(fastest, speed(static_cast<int>(b)));
+    gained = std::max(gained, bodies_[b]->motion().unprescribed_acceleration(settings_.gravity));
+  }
+  return std::max(kNear * settings_.cell, 2.0 * dt * (fastest + dt * gained));
 }
 
-void BodyContact::find(const Pair& pair, double dt) {
+void BodyContact::find(double dt) {
+  rows_.clear();
+  const double near = margin(dt);
+  for (const Pair& pair : pairs_) find(pair, near, dt);
+}
+
+void BodyContact::find(const Pair& pair, double margin, double dt) {
   const bool moved = bodies_[pair.body]->dynamic_motion() != nullptr ||
                      (pair.other >= 0 && bodies_[pair.other]->dynamic_motion() != nullptr);
   if (!moved) return;
-  const double approach = speed(pair.body) + (pair.other >= 0 ? speed(pair.other) : 0.0);
-  const double margin = std::max(kNear * settings_.cell, 2.0 * dt * approach);
   look(pair.body, pair.other, margin, [&](const Vec3& place, double gap, const Vec3& normal) {
     add(pair.body, pair.other, place, gap, normal, pair.friction, dt);
   });

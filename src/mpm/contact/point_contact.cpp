@@ -260,6 +260,7 @@ void PointContact::accounts(std::vector<ImpulseAccount>& list) const {
 void PointContact::energies(EnergyReport& report) const {
   for (const ContactLedger& ledger : ledgers_) ledger.energies(report);
   report.add("cutting", NamedEnergy::Kind::dissipated, cut_);
+  free_.energies(report);
 }
 
 ContactLedger* PointContact::ledger_of(const RigidBody& body) {
@@ -280,6 +281,7 @@ void PointContact::serialise(StateArchive& archive) {
     ledgers_[b].serialise(archive);
   }
   memory_.serialise(archive);
+  free_.serialise(archive);
   archive.value("cut", cut_);
 }
 

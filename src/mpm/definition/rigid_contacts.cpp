@@ -49,6 +49,7 @@ BodyContactSettings body_contact_settings(const SimulationDefinition& definition
   BodyContactSettings settings;
   settings.geometry = definition.geometry;
   settings.cell = definition.smallest_cell();
+  settings.gravity = definition.gravity.norm();
   for (std::size_t w = 0; w < definition.walls.size(); ++w) {
     const WallKind kind = definition.walls[w].kind;
     if (kind != WallKind::fixed && kind != WallKind::slip && kind != WallKind::frictional) continue;

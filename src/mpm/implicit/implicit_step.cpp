@@ -87,6 +87,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   void step_ended() override { sorts_ = tools_.put_out(sets_, grid_); }
   bool needs_sort() const override { return sorts_; }
+  void check_put(const RigidBody& body) const override { tools_.check_overlaps(body); }
   void body_put(const RigidBody& body) override { tools_.forget(body); }
 
   void momentum_updated(StepContext& context) override {
@@ -121,6 +122,7 @@ class ImplicitStep final : public Stage, public ContactReporter {
   void energies(EnergyReport& report) const override {
     report.leave_open();  // particles lose a part of the change of velocity to the grid
     for (const ContactLedger& ledger : tools_.ledgers()) ledger.energies(report);
+    tools_.energies(report);
     walls_.energies(report);
     report.add("implicit_step", NamedEnergy::Kind::dissipated, taken_);
   }

@@ -410,6 +410,7 @@ template <class T>
 void ToolRows<T>::serialise(StateArchive& archive) {
   archive.value("pressure", most_.mean);
   archive.value("pressed", most_.body);
+  free_.serialise(archive);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const StateArchive::Group group(archive, "body_" + std::to_string(b));
     ledgers_[b].serialise(archive);

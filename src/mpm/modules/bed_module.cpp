@@ -30,10 +30,10 @@ void add_bed(RunParts& parts) {
       refuse(fmt::format("follow: no rigid body '{}'", name));
   }
   for (const VolumeDefinition& volume : definition.volumes) {
-    if (volume.of.empty())
+    if (std::find(bed.follow.begin(), bed.follow.end(), volume.of) == bed.follow.end())
       refuse(
-          fmt::format("volume '{}' stands in the world, and ground that is made in it would count as what came in; "
-                      "let it move with a body by of",
+          fmt::format("volume '{}' is of no body that the ground follows, and ground that is made in it would count as "
+                      "what came in; let it move with one by of",
                       volume.name));
   }
   parts.services.bed = &parts.modules.add(

@@ -13,6 +13,7 @@ namespace mpm {
 namespace {
 
 constexpr int kCapsuleMeridians = 32;  // meridians of the display mesh
+constexpr double kBalls = 4.0;         // balls to touch with, in a radius of the axis
 constexpr int kEndParallels = 8;       // parallels of each end
 
 class CapsuleSurface final : public Surface {
@@ -47,7 +48,7 @@ class CapsuleSurface final : public Surface {
   double thickness() const override { return 2.0 * radius_; }
 
   std::vector<TouchPoint> balls() const override {
-    const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * half_ / radius_)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(kBalls * 2.0 * half_ / radius_)));
     std::vector<TouchPoint> balls;
     for (int k = 0; k <= parts; ++k) balls.push_back({(2.0 * k / parts - 1.0) * half_ * Vec3::Unit(axis_), radius_});
     return balls;

@@ -22,6 +22,8 @@ void add_followed(const Value& value, const SimulationDefinition& definition, Be
   for (const RobotDefinition& robot : definition.robots) {
     names.push_back(robot.name);
     if (robot.name != name) continue;
+    if (robot.contacts.empty())
+      value.fail(fmt::format("no link of robot '{}' meets the ground; name some in its links", name));
     for (const LinkContact& link : robot.contacts) add(link.body);
   }
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
@@ -69,10 +71,10 @@ void read_bed(const Map& root, Scene& scene) {
                     "'{}'",
                     body.name));
   for (const VolumeDefinition& volume : definition.volumes) {
-    if (!volume.of.empty()) continue;
+    if (std::find(bed.follow.begin(), bed.follow.end(), volume.of) != bed.follow.end()) continue;
     map.fail(
-        fmt::format("volume '{}' stands in the world, and ground that is made in it would count as what came in; "
-                    "let it move with a body by of",
+        fmt::format("volume '{}' is of no body that the ground follows, and ground that is made in it would count as "
+                    "what came in; let it move with one by of",
                     volume.name));
   }
   definition.bed = std::move(bed);

@@ -35,8 +35,12 @@ void Simulation::State::begin_bed() {
 }
 
 void Simulation::State::follow_bed() {
+  if (const auto fault = services.bed->fault()) throw ModuleError(*fault);
+  bring_ground();
+}
+
+void Simulation::State::bring_ground() {
   FollowingBed& bed = *services.bed;
-  if (const auto fault = bed.fault()) throw ModuleError(*fault);
   if (!bed.look()) return;
   const double now = seconds_of(time);
   sort(now);  // lets those fall asleep and wake that wait for it

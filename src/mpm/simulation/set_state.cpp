@@ -57,22 +57,34 @@ bool same(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-void Simulation::State::check_places(const std::vector<const RigidBody*>& moved) const {
+void Simulation::State::check_places(const std::vector<const RigidBody*>& moved) {
   std::string reason;
+  if (services.bed != nullptr) {
+    // The ground there has to be known; where the place is refused it goes again at the next sync point.
+    bring_ground();
+    reason = services.bed->fault().value_or("");
+  }
   for (const RigidBody* body : moved) {
     if (reason.empty()) reason = why_not_there(*body, sets, layout());
   }
   reason = text_of_all(ranks.get(), reason);
   if (!reason.empty()) throw RigidError(reason);
+  for (const Module* module : modules.list()) {
+    for (const RigidBody* body : moved) module->check_put(*body);
+  }
 }
 
 void Simulation::State::forget_contact(const std::vector<const RigidBody*>& moved) {
-  for (Module* module : modules.list()) {
-    for (const RigidBody* body : moved) module->body_put(*body);
-  }
-  const auto asks = [](const Module* module) { return module->needs_sort(); };
   const std::vector<Module*>& list = modules.list();
-  if (any_of_all(ranks.get(), std::any_of(list.begin(), list.end(), asks))) sort(seconds_of(time));
+  const auto asks = [](const Module* module) { return module->needs_sort(); };
+  // Once more after the first sort has woken what was asleep there: it has sides of thin tools, too.
+  for (int round = 0; round < 2; ++round) {
+    for (Module* module : list) {
+      for (const RigidBody* body : moved) module->body_put(*body);
+    }
+    if (!any_of_all(ranks.get(), std::any_of(list.begin(), list.end(), asks))) return;
+    sort(seconds_of(time));
+  }
 }
 
 void Simulation::State::set_body(RigidBody& body, const StateSet& set) {

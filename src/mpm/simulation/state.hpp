@@ -107,7 +107,7 @@ struct Simulation::State {
   std::vector<PeriodWrench> wrenches;  ///< wrench of each rigid body; empty where no metric is a force or a torque
 
   /// Looks whether bodies may be where they have been put. Collective. @throws RigidError
-  void check_places(const std::vector<const RigidBody*>& moved) const;
+  void check_places(const std::vector<const RigidBody*>& moved);
   /// Lets modules know of bodies that have been put elsewhere. Collective.
   void forget_contact(const std::vector<const RigidBody*>& moved);
   /// The part of set_state() for a body that is no link. @throws RigidError, when nothing is changed
@@ -164,6 +164,8 @@ struct Simulation::State {
   void begin_bed();
   /// At a sync point: makes and puts away such ground. @throws PhysicsError, ModuleError
   void follow_bed();
+  /// Makes the ground around the bodies that it follows, and puts away what is far.
+  void bring_ground();
   /// The particles of some of it, at rest under its weight's stress.
   ParticleSet make_ground(GroundParticles ground);
   /// Ends the run on all ranks if check() throws on one of them, with its reason. @throws PhysicsError

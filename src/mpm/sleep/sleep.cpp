@@ -81,7 +81,8 @@ void Sleep::body_put(const RigidBody&) {
   }
   if (to_wake_.empty()) return;
   sort_names(to_wake_);
-  at_once_ = true;
+  leave_what_stays();
+  at_once_ = !to_wake_.empty();
 }
 
 void Sleep::follow_sort(const StepContext& context) {

@@ -135,9 +135,11 @@ const std::vector<RobotQuantity>& robot_quantities() {
       Q("energy limit", "J", Over::start, FIELD(energies.limit), FIELD(energy_limit), "energy limit",
         "work of the joints' limits", energy("limit")),
       Q("energy contact", "J", Over::start, FIELD(energies.contact), FIELD(energy_contact), "energy contact",
-        "work of the material on the links", energy("contact")),
+        "work of the material and of other bodies on the links", energy("contact")),
+      Q("energy set", "J", Over::start, FIELD(energies.set), FIELD(energy_set), "energy set",
+        "given by states that were set", energy("set")),
       Q("energy loss", "J", Over::start, FIELD(energies.loss), FIELD(energy_loss), "energy loss",
-        "lost where links and material met, sliding left out", energy("loss")),
+        "lost where links met the material, sliding left out, and other bodies", energy("loss")),
   };
   return list;
 }
@@ -181,7 +183,7 @@ const std::vector<StateQuantity>& state_quantities() {
       energy("energy free potential", Over::now, "free_potential", FIELD(energy_free_potential),
              "potential, of free bodies", "of free rigid bodies, -m g.x"),
       energy("energy free loss", Over::start, "free_loss", FIELD(energy_free_loss),
-             "lost where free bodies meet the material", "lost where free bodies and material met, sliding left out"),
+             "lost where free bodies meet the material", "lost where free bodies met material, sliding left out, and other bodies"),
       energy("free work", Over::start, "free_work", FIELD(free_work), "work of wrenches and drives",
              "of applied wrenches and drives on free bodies"),
       Q("momentum", "N s", Over::now, FIELD(audit.momentum), FIELD(momentum), "momentum ", "of the material"),

@@ -15,8 +15,9 @@
 
 namespace mpm {
 
-/// Points of a surface, in its frame, always in the same order. `in_plane`: of a planar scene, whose points lie at y =
-/// 0. None for a body without end, such as a plane; of a height field those of its ground.
+/// Points of a surface, in its frame, always in the same order. `in_plane`: of a planar scene, where they are the
+/// corners of the section at y = 0. None for a body without end, such as a plane; of a height field those of its
+/// ground.
 std::vector<TouchPoint> touch_points(const Surface& surface, bool in_plane);
 
 }  // namespace mpm

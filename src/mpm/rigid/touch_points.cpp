@@ -105,9 +105,12 @@ std::vector<TouchPoint> touch_points(const Surface& surface, bool in_plane) {
   const double size = drawn_size_of(surface), spacing = size / kSpacings;
   PointList points(surface, size, in_plane);
   for (const DrawnEdge& edge : sharp_edges(surface, points)) {
-    const int parts = std::max(1, static_cast<int>(std::ceil((edge.to - edge.from).norm() / spacing)));
+    // Corners of a section are edges along y; those that lie in it end what is drawn.
+    const Vec3 way = edge.to - edge.from;
+    if (in_plane && std::hypot(way.x(), way.z()) > kSamePlace * size) continue;
+    const int parts = std::max(1, static_cast<int>(std::ceil(way.norm() / spacing)));
     for (int k = 0; k <= parts; ++k) {
-      points.add(edge.from + static_cast<double>(k) / parts * (edge.to - edge.from), edge.normals);
+      points.add(edge.from + static_cast<double>(k) / parts * way, edge.normals);
     }
   }
   return points.take();

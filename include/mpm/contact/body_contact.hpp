@@ -11,8 +11,9 @@
 //
 // Weak: a ball that comes to a corner of the other body is slowed when the corner is a step's way before it. A tower of
 // many bodies, or a heavy body on a light one, needs more sweeps than a step does; the error is a small approach, which
-// the next steps correct. What a wall's own friction is counts in `frictional` walls alone. Source: time stepping of
-// Moreau (1988) and Stewart & Trinkle (1996), solved by projected Gauss-Seidel.
+// the next steps correct.
+//
+// Source: time stepping of Moreau (1988) and Stewart & Trinkle (1996), solved by projected Gauss-Seidel.
 #pragma once
 
 #include <optional>

@@ -152,7 +152,7 @@ TEST(AppendedParticles, KeepWhatIsTheirs) {
   EXPECT_EQ(set.size(), 17);
   EXPECT_EQ(own_ids(set)[0], (std::set<std::uint32_t>{0, 1, 2, 3, 4, 5, 20, 21, 22, 23, 24, 25, 26}));
   EXPECT_EQ(own_ids(set)[1], (std::set<std::uint32_t>{6, 7, 8, 9}));
-  remove_awake(set, {0, 3, 11, 12});  // of which two lie where the others move from
+  remove_awake(set, {0, 3, 11, 12});  // two of them lie where the others move from
   EXPECT_EQ(set.size(), 13);
   EXPECT_EQ(own_ids(set)[0], (std::set<std::uint32_t>{1, 2, 4, 5, 20, 21, 22, 23, 24}));
   EXPECT_EQ(own_ids(set)[1], (std::set<std::uint32_t>{6, 7, 8, 9}));
@@ -194,7 +194,7 @@ TEST(FollowingBed, ComesBackAsItWas) {
   std::vector<double> stress_after = field(run, "szz");
   EXPECT_NEAR(*std::min_element(stress_after.begin(), stress_after.end()),
               *std::min_element(stress.begin(), stress.end()), 0.02 * spread);
-  // What was put away of the first window is made anew, by new numbers.
+  // Checks that what was put away of the first window is made anew, by new numbers.
   EXPECT_GT(number(run, "ground_made"), first_made);
   std::size_t renewed = 0;
   for (const std::uint32_t id : ids_of(run)) renewed += all.count(id) == 0 ? 1 : 0;

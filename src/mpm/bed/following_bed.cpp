@@ -131,7 +131,7 @@ bool FollowingBed::stop_far() {
   return true;
 }
 
-// Where particles have masses of their own, these are rounded to the precision of the run.
+// Rounds where particles have masses of their own, which are rounded to the precision of the run.
 double FollowingBed::whole_mass() const {
   const ParticleSet& set = parts_.sets.front();
   return set.masses.empty() ? set.mass : ParticleScalar(set.precision, 1, set.mass)[0];

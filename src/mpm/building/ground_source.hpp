@@ -9,7 +9,7 @@ namespace mpm {
 
 class SceneGround final : public GroundSource {
  public:
-  /// Of the scene's body of that number. Keeps a copy of the scene. @throws SceneError
+  /// Takes the body of that number. Keeps a copy of the scene. @throws SceneError
   SceneGround(const Scene& scene, std::size_t body)
       : scene_(scene), body_(scene_.bodies[body]), filling_(body_, scene_, nullptr) {}
   SceneGround(const SceneGround&) = delete;

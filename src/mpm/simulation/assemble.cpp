@@ -286,7 +286,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
-  if (geostatic && options.settle && !definition.bed) s.settle();  // where it ends, it would slide
+  if (geostatic && options.settle && !definition.bed) s.settle();  // settling would let its ends slide
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);

@@ -85,15 +85,16 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
 
+  diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.keep_house(); });
   services_.push_back(urgent.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
   services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
   services_.push_back(services.advertiseService(topics::kResetWith, &SimulatorNode::on_reset_with, this));
-  services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
   services_.push_back(services.advertiseService(topics::kSetState, &SimulatorNode::on_set_state, this));
   services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
   services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
+  // Last: who sees it finds all the others.
+  services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
 
-  diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.keep_house(); });
   service_spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &service_callbacks_);
   pause_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &pause_callbacks_);
   commands_.listen();

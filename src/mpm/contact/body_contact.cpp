@@ -139,7 +139,7 @@ double BodyContact::speed(int body) const {
   return twist.linear.norm() + twist.angular.norm() * touching_[body].reach;
 }
 
-// Of all bodies: one that is hit in this step may be as fast as the one that hits it.
+// Speeds of all bodies count: one that is hit in this step may be as fast as the one that hits it.
 double BodyContact::margin(double dt) const {
   double fastest = 0.0, gained = 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {

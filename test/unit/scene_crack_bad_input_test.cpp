@@ -196,6 +196,7 @@ TEST(SceneCrackBadInput, TipsThatCannotGrow) {
   expect_crack_refused(27, "  alternate: {criterion: 2}", "cracks.alternate.criterion: steady_state sets when");
   expect_crack_refused(27, "  alternate: {criterion: energy_balance}",
                        "cracks.alternate.criterion: energy_balance sets");
+  expect_crack_refused(26, "  alternate: {criterion: hoop_stress}", "cracks.alternate: stands in for growth");
   expect_crack_refused(10, "    fracture: {k_ic: 7e5, alternate: {criterion: 3}}",
                        "materials.glass.fracture.alternate.criterion: energy_balance sets when");
   expect_crack_refused(20, "      end: none", "cracks.growth: no crack has a tip,", "", 26);

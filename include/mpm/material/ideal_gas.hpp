@@ -63,6 +63,8 @@ class IdealGas : public LawDefaults {
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     return sqrt(T(adiabatic_ ? ratio_ : 1.0) * whole_pressure(tau, j));
   }
+  /// tau/rho0 = -p J/rho0, in which p J is that of T alone.
+  double warm(double by, double /*j*/, double* /*history*/) const { return -specific_pressure_ / temperature_ * by; }
   double heat_capacity() const { return capacity_; }
   double density() const { return density_; }
   double reference_temperature() const { return temperature_; }

@@ -95,6 +95,9 @@ struct LawDefaults {
   Symmetric3<double> elastic_strain(const StressedPoint& at) const { return at.total; }
   /// Heat capacity at constant volume of a law with a temperature [J/(kg K)].
   double heat_capacity() const { return 0.0; }
+  /// Follows heat from outside, by which the temperature of a law that has one rises by `by` [K] at volume ratio `j`:
+  /// writes the other scalars of history and returns by how much the mean of tau changes [J/kg].
+  double warm(double /*by*/, double /*j*/, double* /*history*/) const { return 0.0; }
   /// Temperature to which the temperature in history is relative [K].
   double reference_temperature() const { return 0.0; }
 };

@@ -101,6 +101,11 @@ class JohnsonCook : public LawDefaults {
   Symmetric3<double> elastic_strain(const StressedPoint& at) const {
     return isochoric_strain(at.tau, at.j, density_ / shear_);
   }
+  /// Heat c_v dT joins the internal energy, and the pressure with it.
+  double warm(double by, double j, double* history) const {
+    history[kEnergy] += capacity_ * by;
+    return -j / density_ * equation_of_state_.thermal_pressure(capacity_ * by);
+  }
   double heat_capacity() const { return capacity_; }
   double density() const { return density_; }
   double heat_fraction() const { return heat_fraction_; }

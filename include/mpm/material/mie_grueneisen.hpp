@@ -52,6 +52,9 @@ class MieGrueneisen {
     energy = known - pressure * half * T(volume_);
   }
 
+  /// Part of the pressure that an internal energy [J/kg] makes, at any J [Pa].
+  double thermal_pressure(double energy) const { return coupling_ * energy; }
+
   /// T / T_old = exp(gamma0 (J_old - J)) of a change of volume without heat.
   template <class T>
   T isentropic_heating(T j_old, T j) const {

@@ -4,7 +4,8 @@
 //   plastic work    dT = beta dW / C_v, W by mass, as the law books it
 //   compression     dT = -3 K alpha T dJ / (rho0 C_v), GIMP notes (6.35), (6.36) with M = 3 K alpha I
 //   own law         dT of history, for Johnson-Cook and ideal gas, which heat themselves; conduction is written back,
-//                   so that there is one temperature and nothing is heated twice
+//                   so that there is one temperature and nothing is heated twice; stress follows at once, and what the
+//                   law then stores is work on it
 #pragma once
 
 #include <vector>
@@ -56,16 +57,19 @@ class CompressionHeat final : public LocalGain {
 
 class LawTemperature final : public LocalGain {
  public:
-  LawTemperature(std::vector<ParticleSet>& sets, const std::vector<HeatOfSet>& heat);
+  LawTemperature(std::vector<ParticleSet>& sets, GeometryKind geometry, const std::vector<HeatOfSet>& heat);
   std::string name() const override { return "law"; }
   bool acts_on(int set) const override { return index_[set] >= 0; }
   void take(int set, int first, int last, const double* value, double* gain) override;
-  void written(int set, int first, int last, const double* value) override;
+  double written(int set, int first, int last, const double* value) override;
+  bool gives_energy() const override { return true; }
   /// Temperature of a particle, as the law has it [K].
   double value(int set, int p) const { return sets_[set].history[index_[set]][p] + reference_[set]; }
 
  private:
   std::vector<ParticleSet>& sets_;
+  GeometryKind geometry_;
+  std::vector<const Law*> laws_;
   std::vector<int> index_;         ///< index of the temperature in history; negative: none
   std::vector<double> reference_;  ///< [K]
 };

@@ -23,8 +23,10 @@ class LocalGain {
   virtual bool acts_on(int set) const = 0;
   /// Adds to `gain[i]` what the quantity of particle first + i, `value[first + i]` now, has gained since the last call.
   virtual void take(int set, int first, int last, const double* value, double* gain) = 0;
-  /// The quantity of these particles is new.
-  virtual void written(int /*set*/, int /*first*/, int /*last*/, const double* /*value*/) {}
+  /// The quantity of these particles is new. Returns the energy that their laws store with it [J].
+  virtual double written(int /*set*/, int /*first*/, int /*last*/, const double* /*value*/) { return 0.0; }
+  /// True if written() may give energy.
+  virtual bool gives_energy() const { return false; }
 };
 
 }  // namespace mpm

@@ -18,6 +18,9 @@
 
 namespace mpm {
 
+/// Strain of an anisotropic set since the last look, contracted with Biot's tensor: a number of its particles.
+inline constexpr const char* kSqueezedBy = "squeezed_by";
+
 /// The pressure that a squeezed skeleton gives its water.
 class SkeletonGain final : public LocalGain {
  public:
@@ -43,8 +46,6 @@ class PoreWater {
   void add_force(StepContext& context);
   /// Work of the pressure on the skeleton since the start [J]: to be called once in a step, after its force was added.
   double work() const { return work_; }
-  /// True if the pressure acts alike along all axes; of another its work is not counted.
-  bool isotropic() const { return isotropic_; }
   /// Radial momentum by the hoop direction about an axis in this step [N s].
   double radial() const { return radial_; }
   /// Fastest wave of an undrained set with this drained speed [m/s].
@@ -73,6 +74,7 @@ class PoreWater {
   ScalarTransfer::Taken means_;
   std::vector<PaddedArray<double>> mean_;  ///< scratch, where averages are taken
   std::vector<std::size_t> last_;          ///< place of J at the last force in ParticleSet::brought
+  std::vector<std::size_t> squeezed_;      ///< place there of kSqueezedBy, of anisotropic sets
   std::vector<double> sums_;
   double work_ = 0.0, radial_ = 0.0;
 };

@@ -82,6 +82,7 @@ class TransportedField {
   void start_from(int set, const std::function<double(int particle)>& value);
   void add(std::unique_ptr<LocalGain> gain) {
     gain_accounts_.push_back({gain->name(), 0.0, 0.0});
+    gives_to_laws_ = gives_to_laws_ || gain->gives_energy();
     gains_.push_back(std::move(gain));
   }
   void add(std::unique_ptr<NodalSource> source);
@@ -117,6 +118,10 @@ class TransportedField {
   double content() const;
   /// Content that the particles have gained since the start [content].
   double gained() const { return gained_; }
+  /// True if some law has the quantity itself, and stores energy with it.
+  bool gives_to_laws() const { return gives_to_laws_; }
+  /// Energy that came into laws so since the start [J].
+  double given_to_laws() const { return given_to_laws_; }
   void serialise(StateArchive& archive);
 
  private:
@@ -205,7 +210,8 @@ class TransportedField {
   std::vector<double> sums_;
   ContentAccount prescribed_, volume_sources_;
   std::vector<ContentAccount> gain_accounts_;
-  double gained_ = 0.0;
+  double gained_ = 0.0, given_to_laws_ = 0.0;
+  bool gives_to_laws_ = false;
   std::uint32_t asked_ = 0;
 };
 

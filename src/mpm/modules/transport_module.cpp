@@ -106,7 +106,7 @@ void couple_heat(TransportedField& temperature, RunParts& parts, GeometryKind ge
   auto plastic = std::make_unique<PlasticHeat>(parts.sets, heat);
   if (plastic->any()) temperature.add(std::move(plastic));
   auto compression = std::make_unique<CompressionHeat>(parts.sets, geometry, heat);
-  auto own = std::make_unique<LawTemperature>(parts.sets, heat);
+  auto own = std::make_unique<LawTemperature>(parts.sets, geometry, heat);
   bool compresses = false, has_own = false;
   for (int s = 0; s < static_cast<int>(parts.sets.size()); ++s) {
     compresses = compresses || compression->acts_on(s);

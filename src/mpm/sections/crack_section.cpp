@@ -38,6 +38,19 @@ void read_growth(const Map& map, const TransportDefinition& transport, CracksDef
   }
 }
 
+/// Refuses an alternate rule where no tip has a first one.
+void check_alternate(const Map& map, const CracksDefinition& cracks) {
+  const auto grows = [](const GrowthRule& rule) { return rule.criterion != FractureCriterion::none; };
+  const bool any =
+      grows(cracks.growth) || std::any_of(cracks.materials.begin(), cracks.materials.end(),
+                                          [&](const FractureConstants& m) { return m.growth && grows(*m.growth); });
+  if (any || !grows(cracks.alternate)) return;
+  map.at("alternate")
+      .fail(
+          "stands in for growth, which the scene has not; write growth: {criterion: ...}, or call "
+          "this rule growth");
+}
+
 void read_settings(const Map& map, GeometryKind geometry, CracksDefinition& cracks, Scene& scene) {
   if (const auto contour = map.find("contour")) read_contour(*contour, geometry, cracks.contour);
   if (const auto split = map.find("split")) {
@@ -105,6 +118,7 @@ void read_cracks(const Map& root, Scene& scene) {
   for (const Value& material : root.at("materials").elements()) {
     cracks.materials.push_back(read_fracture_constants(material_map(material, root), cracks));
   }
+  check_alternate(map, cracks);
   const double cell = definition.smallest_cell();
   const std::vector<Value> list = map.at("list").elements();
   if (list.empty()) map.at("list").fail("names no crack; write one, or leave out cracks");

@@ -70,6 +70,14 @@ void check_growth(const Value& end, const CrackDefinition& crack, std::size_t ma
   const std::optional<ElasticConstants> elastic = elastic_constants_of(definition, scene.definition.geometry);
   const GrowthRule first = constants.growth.value_or(cracks.growth);
   const GrowthRule second = constants.alternate.value_or(cracks.alternate);
+  // A material that switches the scene's growth off does so with its alternate rule.
+  const bool switched_off = constants.growth && !constants.alternate;
+  if (first.criterion == FractureCriterion::none && second.criterion != FractureCriterion::none && !switched_off) {
+    end.fail(
+        fmt::format("the tip's material is '{}', with an alternate rule and no first one, which it stands in for: "
+                    "write growth: {{criterion: ...}}, or leave out alternate",
+                    definition.name));
+  }
   for (const bool alternate : {false, true}) {
     const GrowthRule& rule = alternate ? second : first;
     const std::string fault = criterion_fault(rule, constants, elastic ? &*elastic : nullptr, alternate);

@@ -29,7 +29,8 @@ const KeyTable<OutputDefinition>& output_keys() {
                other<Output>("terrain", "map, below",
                              {"none", "maps of the ground's height over time", "{period: 0.1, change: 1 mm}"})})
           .advise({{"folder", "name it on the command line: --out DIR, --csv DIR, --bag FILE"},
-                   {"crack_fields", "bodies are whole"}});
+                   {"crack_fields",
+                    "cracks are written without it: to the topic cracks, to bags, and with run_scene --csv DIR"}});
   return keys;
 }
 

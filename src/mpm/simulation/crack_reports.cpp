@@ -47,7 +47,7 @@ std::vector<CrackTipReport> Simulation::crack_tips() const {
     report.place = Vec3(place[0], 0.0, place[1]);
     report.direction = Vec3(direction[0], 0.0, direction[1]);
     report.state = tip.looked ? describe(tip.status) : "not looked at yet";
-    report.growth = tip.why;
+    report.growth = tip.by_alternate ? tip.why + "; it last grew by the alternate rule (alt)" : tip.why;
     if (tip.material >= 0) report.material = state_->definition.materials[tip.material].name;
     report.has_j = !tip.looked || tip.status == ContourStatus::complete;
     report.stopped = stage->tip_stopped(tip);

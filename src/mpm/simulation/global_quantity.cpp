@@ -31,6 +31,9 @@ struct Quantity {
 // Work that loads, velocity conditions, absorbing faces and rigid bodies did since the start.
 const std::vector<std::string> kExternalWork = {"load_work", "contact_work"};
 
+// Energies in imperfect interfaces, of bodies in contact and of the faces of cracks.
+const std::vector<std::string> kInterfaces = {"interface", "crack_interface"};
+
 const std::vector<Quantity>& table() {
   static const std::vector<Quantity> kTable = [] {
     std::vector<Quantity> list;
@@ -71,9 +74,9 @@ const std::vector<Quantity>& table() {
         {"heat energy", "J", Source::sum, {"heat_energy"}},
         {"thermal energy", "J", Source::sum, {"thermal_energy"}},
         {"energy", "J", Source::sum, {"kinetic_energy", "strain_energy"}},
-        {"interface energy", "J", Source::sum, {}, 0, {"interface"}},
+        {"interface energy", "J", Source::sum, {}, 0, kInterfaces},
         {"external work", "J", Source::sum, {}, 0, kExternalWork},
-        {"potential energy", "J", Source::sum, {"kinetic_energy", "strain_energy"}, 0, {"interface"}, kExternalWork},
+        {"potential energy", "J", Source::sum, {"kinetic_energy", "strain_energy"}, 0, kInterfaces, kExternalWork},
         {"step number", "1", Source::steps},
         {"elapsed time", "s", Source::wall},
         {"cpu time", "s", Source::cpu},

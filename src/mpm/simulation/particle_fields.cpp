@@ -46,6 +46,11 @@ double stored(const View& a) {
   return mass(a) * (whole - a.set.heat_fraction * plastic_work(a));
 }
 double thermal(const View& a) {
+  if (a.set.temperatures != nullptr) {
+    const double now = a.set.temperatures[a.p], start = a.set.reference_temperature;
+    return start > 0.0 ? mass(a) * a.set.transported->capacity(now) * (now - start) * (now - start) / (2.0 * start)
+                       : 0.0;
+  }
   if (a.set.heat_capacity == 0.0 || a.set.temperature < 0) return 0.0;
   return mass(a) * a.set.heat_capacity * heating(a) * heating(a) / (2.0 * a.set.reference_temperature);
 }
@@ -104,7 +109,7 @@ const Field kFields[] = {
     {"kinetic_energy", "J", kNeedsNothing, kinetic},
     {"strain_energy", "J", kNeedsVolume, stored},
     {"plastic_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * plastic_work(a); }},
-    {"heat_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * a.set.heat_fraction * plastic_work(a); }},
+    {"heat_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * a.set.part_as_heat * plastic_work(a); }},
     {"thermal_energy", "J", kNeedsNothing, thermal},
     // Zero where the law has none.
     {"temperature", "K", kNeedsNothing,
@@ -220,9 +225,12 @@ void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, i
 
 std::vector<SetView> Simulation::State::views() const {
   std::vector<SetView> list;
+  const QuantityDefinition* heat = definition.transport.find(Transported::temperature);
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    list.emplace_back(sets[s], laws[s], find_material(definition, definition.bodies[s]), static_cast<int>(s), layout(),
-                      definition.geometry);
+    const MaterialDefinition& material = find_material(definition, definition.bodies[s]);
+    const auto place = static_cast<std::size_t>(&material - definition.materials.data());
+    list.emplace_back(sets[s], laws[s], material, static_cast<int>(s), layout(), definition.geometry, heat,
+                      heat == nullptr ? nullptr : &heat->materials[place]);
   }
   return list;
 }

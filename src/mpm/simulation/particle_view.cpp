@@ -20,7 +20,8 @@ Vec3 rotation_of(const Matrix3<double>& f) {
 }  // namespace
 
 SetView::SetView(const ParticleSet& particles, const Law& the_law, const MaterialDefinition& material, int number,
-                 const GridLayout& layout, GeometryKind kind)
+                 const GridLayout& layout, GeometryKind kind, const QuantityDefinition* heat,
+                 const TransportMaterial* of_material)
     : set(particles), law(the_law), index(number), geometry(kind), density(material.density) {
   for (int k = 0; k < layout.dim(); ++k) slot[layout.axis(k)] = k;
   std::visit(
@@ -33,6 +34,15 @@ SetView::SetView(const ParticleSet& particles, const Law& the_law, const Materia
         heat_capacity = l.heat_capacity();
       },
       law);
+  part_as_heat = heat_fraction;
+  if (heat == nullptr || temperature >= 0) return;
+  const std::string name = traits_of(heat->quantity).name;
+  for (const NamedScalar& scalar : set.brought) {
+    if (scalar.name == name) temperatures = scalar.values.data();
+  }
+  transported = of_material;
+  reference_temperature = heat->reference;
+  part_as_heat = of_material->heat_fraction;
 }
 
 void ParticleView::look(int particle, unsigned needs) {

@@ -24,8 +24,10 @@ enum ViewNeeds : unsigned {
 
 /// Facts that a set's particles have in common.
 struct SetView {
+  /// `heat`: transport of temperature, or null; `of_material`: its constants of this set.
   SetView(const ParticleSet& set, const Law& law, const MaterialDefinition& material, int index,
-          const GridLayout& layout, GeometryKind geometry);
+          const GridLayout& layout, GeometryKind geometry, const QuantityDefinition* heat,
+          const TransportMaterial* of_material);
 
   /// Component of a vector field along a world axis; 0 across the grid's axes.
   template <class Values>
@@ -45,8 +47,11 @@ struct SetView {
   double density = 0.0;                                          ///< initial [kg/m^3]
   int plastic_strain = -1, plastic_work = -1, temperature = -1;  ///< number of the history scalar
   double reference_temperature = 0.0;                            ///< [K]
-  double heat_fraction = 0.0;
-  double heat_capacity = 0.0;  ///< at constant volume [J/(kg K)]; 0: the law has none
+  double heat_fraction = 0.0;                      ///< part of the plastic work that the law's elastic energy includes
+  double part_as_heat = 0.0;                       ///< part of it that becomes heat, in the law or by transport
+  double heat_capacity = 0.0;                      ///< at constant volume [J/(kg K)]; 0: the law has none
+  const TransportMaterial* transported = nullptr;  ///< constants of a law that transport gives a temperature
+  const double* temperatures = nullptr;            ///< temperatures of the particles then [K]
 };
 
 struct ParticleView {

@@ -3,7 +3,54 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/dimension.hpp"
+
 namespace mpm {
+namespace {
+
+/// A tensor of particles, to be written.
+struct Stresses {
+  struct Component {
+    ParticleScalar& of;
+    struct At {
+      ParticleScalar& of;
+      int p;
+      void operator=(double value) const { of.set(p, value); }
+    };
+    At operator[](int p) const { return {of, p}; }
+  };
+  std::vector<ParticleScalar>& of;
+  Component operator[](int c) const { return {of[c]}; }
+};
+
+/// Gives the law temperatures from outside; returns the energy that it then stores and did not before [J].
+template <class OneLaw>
+double write_temperatures(ParticleSet& set, const OneLaw& law, GeometryKind geometry, double reference, int first,
+                          int last, const double* value) {
+  if constexpr (OneLaw::kTemperature < 0) {
+    return 0.0;
+  } else {
+    return with_geometry(geometry, [&](auto kind) {
+      double sum = 0.0;
+      for (int p = first; p < last; ++p) {
+        const auto f = kind.load_matrix(set.f, p);
+        const double j = determinant(f);
+        const auto stored = [&] { return law.elastic_energy(f, full(kind.load_symmetric(set.tau, p)), j); };
+        double history[OneLaw::kHistory];
+        for (int h = 0; h < OneLaw::kHistory; ++h) history[h] = set.history[h][p];
+        const double before = stored(), by = value[p] - reference - history[OneLaw::kTemperature];
+        history[OneLaw::kTemperature] = value[p] - reference;
+        const double pressed = law.warm(by, j, history);
+        for (int h = 0; h < OneLaw::kHistory; ++h) set.history[h].set(p, history[h]);
+        kind.store_symmetric(scale_shift(kind.load_symmetric(set.tau, p), 1.0, pressed), Stresses{set.tau}, p);
+        sum += set.mass_of(p) * (stored() - before);
+      }
+      return sum;
+    });
+  }
+}
+
+}  // namespace
 
 int temperature_index(const Law& law) {
   return std::visit([](const auto& own) { return own.kTemperature; }, law);
@@ -56,8 +103,11 @@ void CompressionHeat::take(int set, int first, int last, const double* value, do
   }
 }
 
-LawTemperature::LawTemperature(std::vector<ParticleSet>& sets, const std::vector<HeatOfSet>& heat) : sets_(sets) {
+LawTemperature::LawTemperature(std::vector<ParticleSet>& sets, GeometryKind geometry,
+                               const std::vector<HeatOfSet>& heat)
+    : sets_(sets), geometry_(geometry) {
   for (const HeatOfSet& of : heat) {
+    laws_.push_back(of.law);
     index_.push_back(temperature_index(*of.law));
     reference_.push_back(std::visit([](const auto& own) { return own.reference_temperature(); }, *of.law));
   }
@@ -67,9 +117,12 @@ void LawTemperature::take(int set, int first, int last, const double* value, dou
   for (int p = first; p < last; ++p) gain[p - first] += this->value(set, p) - value[p];
 }
 
-void LawTemperature::written(int set, int first, int last, const double* value) {
-  ParticleScalar& excess = sets_[set].history[index_[set]];
-  for (int p = first; p < last; ++p) excess.set(p, value[p] - reference_[set]);
+double LawTemperature::written(int set, int first, int last, const double* value) {
+  ParticleSet& of = sets_[set];
+  const double reference = reference_[set];
+  return std::visit(
+      [&](const auto& law) { return write_temperatures(of, law, geometry_, reference, first, last, value); },
+      *laws_[set]);
 }
 
 }  // namespace mpm

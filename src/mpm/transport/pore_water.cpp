@@ -41,6 +41,7 @@ SkeletonGain::SkeletonGain(const TransportParts& parts, std::vector<TransportMat
     }
     const std::size_t first = set.brought.size();
     for (int c = 0; c < 9; ++c) set.bring("squeezed_" + std::to_string(c), "1");
+    set.bring(kSqueezedBy, "1");
     last_.push_back(first);
     for (int p = 0; p < set.size(); ++p) {
       const Matrix3<double> f =
@@ -72,7 +73,9 @@ void SkeletonGain::take(int set, int first, int last, const double* value, doubl
     const Matrix3<double> before{old[0], old[1], old[2], old[3], old[4], old[5], old[6], old[7], old[8]};
     const Matrix3<double> f =
         with_geometry(parts_.geometry, [&](auto kind) { return full(kind.load_matrix(of.f, p)); });
-    gain[p - first] -= modulus(p) * contract(material.biot, before, f);
+    const double by = contract(material.biot, before, f);
+    of.brought[last_[set] + 9].values[p] = by;
+    gain[p - first] -= modulus(p) * by;
     const double now[9] = {f.xx, f.xy, f.xz, f.yx, f.yy, f.yz, f.zx, f.zy, f.zz};
     for (int c = 0; c < 9; ++c) of.brought[last_[set] + c].values[p] = now[c];
   }
@@ -95,6 +98,10 @@ PoreWater::PoreWater(TransportedField& pressure, const TransportParts& parts, st
     last_.push_back(parts_.sets[s].bring("pushed", "1"));
     PaddedArray<double>& last = parts_.sets[s].brought[last_[s]].values;
     find_volume_ratios(parts_.sets[s], parts_.geometry, 0, parts_.sets[s].size(), last.data());
+    const auto& brought = parts_.sets[s].brought;
+    const auto squeezed =
+        std::find_if(brought.begin(), brought.end(), [](const NamedScalar& one) { return one.name == kSqueezedBy; });
+    squeezed_.push_back(static_cast<std::size_t>(squeezed - brought.begin()));
   }
   pushed_ = !isotropic_ || axisymmetric(parts_.geometry) ? 3 : 1;
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
@@ -193,7 +200,21 @@ void PoreWater::add_force(StepContext& context) {
         last[p] = j[p - first];
       }
     };
-    work_ = sum_groups("pore water: pressure", set, parts_.threads, sums_, work_, press);
+    // The same with alpha : d(strain) for alpha d(ln J), in the mean of the volume before and after.
+    const auto press_by_rows = [&](int first, int end, double& sum) {
+      double j[kGainGroup];
+      find_volume_ratios(set, parts_.geometry, first, end, j);
+      const double* by = set.brought[squeezed_[s]].values.data();
+      for (int p = first; p < end; ++p) {
+        const double mean = pressure[p] + 0.5 * by[p] / own.capacity(pressure[p]);
+        sum += set.mass_of(p) * per_mass * mean * by[p] * 0.5 * (j[p - first] + last[p]);
+        push[p] = part * pressure[p] * j[p - first] * per_mass;
+        last[p] = j[p - first];
+      }
+    };
+    const bool rows = !is_isotropic(own.biot);
+    work_ = rows ? sum_groups("pore water: pressure", set, parts_.threads, sums_, work_, press_by_rows)
+                 : sum_groups("pore water: pressure", set, parts_.threads, sums_, work_, press);
     pushes_[s] = {push};
   }
   if (averaged_) average();

@@ -153,8 +153,10 @@ void Transport::accounts(std::vector<ImpulseAccount>& list) const {
 }
 
 void Transport::energies(EnergyReport& report) const {
-  if (water_ && water_->isotropic()) report.add("pore_pressure", NamedEnergy::Kind::work, water_->work());
-  if (water_ && !water_->isotropic()) report.leave_open();  // its work is not counted
+  for (const auto& field : fields_) {
+    if (field->gives_to_laws()) report.add("heat", NamedEnergy::Kind::work, field->given_to_laws());
+  }
+  if (water_) report.add("pore_pressure", NamedEnergy::Kind::work, water_->work());
   if (expands_) report.add("expansion", NamedEnergy::Kind::work, expansion_work_);
 }
 

@@ -198,9 +198,10 @@ void TransportedField::update(double start, double dt, bool reported) {
     for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
       if (!gain->acts_on(static_cast<int>(s))) continue;
       const ParticleSet& set = parts_.sets[s];
-      for_particle_groups("transport: gains", set, kGainGroup, parts_.threads, [&](int first, int last, int) {
-        gain->written(static_cast<int>(s), first, last, values(static_cast<int>(s)).data());
-      });
+      const auto write = [&](int first, int last, double& sum) {
+        sum = gain->written(static_cast<int>(s), first, last, values(static_cast<int>(s)).data());
+      };
+      given_to_laws_ = sum_groups("transport: gains", set, parts_.threads, sums_, given_to_laws_, write);
     }
   }
   check_range();
@@ -259,6 +260,7 @@ std::vector<ContentAccount> TransportedField::accounts() const {
 
 void TransportedField::serialise(StateArchive& archive) {
   archive.sum("gained", gained_);
+  if (gives_to_laws_) archive.sum("given_to_laws", given_to_laws_);
   const auto account = [&](const std::string& name, ContentAccount& one) {
     archive.sum(name + "/given", one.given);
     archive.sum(name + "/exchanged", one.exchanged);

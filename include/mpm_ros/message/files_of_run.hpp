@@ -10,7 +10,8 @@ namespace mpm_ros {
 
 /// The files of the tables and snapshots that --csv writes into a folder, and of --vtk: regular expressions.
 inline constexpr const char* kCsvFiles =
-    "(contact_forces|contact_pairs|bodies|solver_state|global_quantities|crack_tips|crack_points|joints|robots|commands|"
+    "(contact_forces|contact_pairs|bodies|solver_state|global_quantities|crack_tips|crack_points|joints|robots|"
+    "commands|"
     "particles|particles_[0-9]+|terrain|terrain_[0-9]+)\\.csv|outline_.*\\.obj";
 inline constexpr const char* kVtkFiles = "run\\.pvd|(particles|body_.*|cracks)_[0-9]+(_[0-9]+)?\\.p?vtp";
 

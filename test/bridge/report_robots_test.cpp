@@ -128,7 +128,7 @@ TEST_F(ReportRobots, TablesHaveRobotsWhereThereAreAny) {
   ASSERT_EQ(robots.size(), kLast + 2U);
   EXPECT_TRUE(holds(robots[0], "time [s],arm x [m],arm y [m],arm z [m],arm qx [1],")) << robots[0];
   EXPECT_TRUE(holds(robots[0], ",arm energy kinetic [J],")) << robots[0];
-  EXPECT_EQ(robots[41], "0.04,0,0,0,0,0,0,1,0,0,0,0,0,0,0.5,0,5,0,0,0,0,0");
+  EXPECT_EQ(robots[41], "0.04,0,0,0,0,0,0,1,0,0,0,0,0,0,0.5,0,5,0,0,0,0,0,0");
 
   HalfSineRun().write(folder_.file("none.bag"));
   options.bags = {folder_.file("none.bag")};

@@ -1,5 +1,5 @@
 // Ground that is there around the bodies that it follows: what comes and goes is counted to round-off, comes back as it
-// was where nothing has moved it, and its number of particles is that of the window however far the drive. 20 s.
+// was where nothing has moved it, and its number of particles is that of the window however far the drive. Cost: 6 s.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 // between them stands as it would on ground that goes on (sleep/sleep.hpp). Particles that fly or roll over them into a
 // column without ground are put away at the next sync point, as mass in that column.
 //
-// What is made and put away is counted: its mass, its momentum (the account "ground") and its energy (the work
+// All that is made and put away is counted: its mass, its momentum (the account "ground") and its energy (the work
 // "ground").
 //
 // Weak: waves that reach the outermost columns are thrown back as by a wall. What still slides at twice the distance

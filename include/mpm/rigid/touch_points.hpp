@@ -5,8 +5,8 @@
 // along its round face and points on its rims. Flat faces have none: what touches there touches with its own points.
 //
 // Weak: two edges that cross touch at the nearest point of one of them, up to half the spacing away; until then they
-// overlap by at most as much. A cylinder touches flat ground with 48 lines around it, between
-// which its centre sinks by 0.2 % of the radius as it rolls.
+// overlap by at most as much. A cylinder touches flat ground with 48 lines around it, between which its centre sinks by
+// 0.2 % of the radius as it rolls.
 #pragma once
 
 #include <vector>

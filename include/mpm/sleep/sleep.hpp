@@ -59,6 +59,9 @@ struct SleepPace {
   std::uint32_t steps_to_wait;  ///< for others at the border of unrest, before blocks are woken
 };
 
+/// Distance from a tool within which nothing sleeps [cells].
+inline constexpr double kNearTool = 4.0;
+
 class Sleep final : public Stage {
  public:
   Sleep(const SleepDefinition& definition, SleepParts parts);

@@ -12,9 +12,8 @@
 namespace mpm {
 namespace {
 
-constexpr int kKept = 2;           ///< columns by which a body has to be farther than where ground is made
-constexpr double kStopped = 2.0;   ///< distances from a body beyond which ground stops
-constexpr double kNearTool = 4.0;  ///< cells from a body in which nothing sleeps (sleep/sleep.cpp)
+constexpr int kKept = 2;          ///< columns by which a body has to be farther than where ground is made
+constexpr double kStopped = 2.0;  ///< distances from a body beyond which ground stops
 
 }  // namespace
 

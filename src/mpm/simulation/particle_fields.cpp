@@ -1,5 +1,5 @@
-// Particle fields by name: the one list that topics, bags, CSV files, metrics and global quantities draw from. To add
-// one: a line here, and its row in doc/watching.md.
+// Columns of particle fields (particle_field_table.cpp), as topics, bags, CSV files, metrics and global quantities read
+// them: in order of id, all or some, on one process or gathered from several.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,150 +8,14 @@
 #include <numeric>
 
 #include "mpm/loop/loop.hpp"
-#include "particle_view.hpp"
+#include "particle_field_table.hpp"
 
 namespace mpm {
 namespace {
 
-using View = ParticleView;
-
-struct Field {
-  const char* name;
-  const char* unit;
-  unsigned needs;  ///< ViewNeeds
-  double (*value)(const View&);
-  bool of_start = false;  ///< looks at where the particle was at the start
-};
-
-double mises(const Symmetric3<double>& s) {
-  const double mean = trace(s) / 3.0;
-  return std::sqrt(1.5 * squared_norm(scale_shift(s, 1.0, -mean)));
-}
-
-double mass(const View& a) { return a.set.set.mass_of(a.p); }
-double plastic_work(const View& a) { return a.set.history(a.set.plastic_work, a.p); }
-double heating(const View& a) { return a.set.history(a.set.temperature, a.p); }
-double moved(const View& a, int axis) {
-  return a.set.along(a.set.set.x, axis, a.p) - a.set.along(a.set.set.start_x, axis, a.p);
-}
-double kinetic(const View& a) {
-  double sum = 0.0;
-  for (const auto& component : a.set.set.v) sum += component[a.p] * component[a.p];
-  return 0.5 * mass(a) * sum;
-}
-double stored(const View& a) {
-  ParticleTensors t{a.f, a.tau, a.j};
-  if (a.set.set.free_strain >= 0) t = without_free_strain(a.set.set, a.p, t);
-  const double whole = std::visit([&](const auto& law) { return law.elastic_energy(t.f, t.tau, t.j); }, a.set.law);
-  return mass(a) * (whole - a.set.heat_fraction * plastic_work(a));
-}
-double thermal(const View& a) {
-  if (a.set.temperatures != nullptr) {
-    const double now = a.set.temperatures[a.p], start = a.set.reference_temperature;
-    return start > 0.0 ? mass(a) * a.set.transported->capacity(now) * (now - start) * (now - start) / (2.0 * start)
-                       : 0.0;
-  }
-  if (a.set.heat_capacity == 0.0 || a.set.temperature < 0) return 0.0;
-  return mass(a) * a.set.heat_capacity * heating(a) * heating(a) / (2.0 * a.set.reference_temperature);
-}
-
-const Field kFields[] = {
-    {"x", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.x, 0, a.p); }},
-    {"y", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.x, 1, a.p); }},
-    {"z", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.x, 2, a.p); }},
-    {"vx", "m/s", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.v, 0, a.p); }},
-    {"vy", "m/s", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.v, 1, a.p); }},
-    {"vz", "m/s", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.v, 2, a.p); }},
-    {"speed", "m/s", kNeedsNothing, [](const View& a) { return std::sqrt(2.0 * kinetic(a) / mass(a)); }},
-    {"sxx", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.xx; }},
-    {"syy", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.yy; }},
-    {"szz", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.zz; }},
-    {"syz", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.yz; }},
-    {"sxz", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.xz; }},
-    {"sxy", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.xy; }},
-    {"p", "Pa", kNeedsStress, [](const View& a) { return -trace(a.cauchy) / 3.0; }},
-    {"mises", "Pa", kNeedsStress, [](const View& a) { return mises(a.cauchy); }},
-    {"exx", "1", kNeedsStrain, [](const View& a) { return a.total.xx; }},
-    {"eyy", "1", kNeedsStrain, [](const View& a) { return a.total.yy; }},
-    {"ezz", "1", kNeedsStrain, [](const View& a) { return a.total.zz; }},
-    {"eyz", "1", kNeedsStrain, [](const View& a) { return a.total.yz; }},
-    {"exz", "1", kNeedsStrain, [](const View& a) { return a.total.xz; }},
-    {"exy", "1", kNeedsStrain, [](const View& a) { return a.total.xy; }},
-    {"exxe", "1", kNeedsElastic, [](const View& a) { return a.elastic.xx; }},
-    {"eyye", "1", kNeedsElastic, [](const View& a) { return a.elastic.yy; }},
-    {"ezze", "1", kNeedsElastic, [](const View& a) { return a.elastic.zz; }},
-    {"eyze", "1", kNeedsElastic, [](const View& a) { return a.elastic.yz; }},
-    {"exze", "1", kNeedsElastic, [](const View& a) { return a.elastic.xz; }},
-    {"exye", "1", kNeedsElastic, [](const View& a) { return a.elastic.xy; }},
-    {"exxp", "1", kNeedsElastic, [](const View& a) { return a.total.xx - a.elastic.xx; }},
-    {"eyyp", "1", kNeedsElastic, [](const View& a) { return a.total.yy - a.elastic.yy; }},
-    {"ezzp", "1", kNeedsElastic, [](const View& a) { return a.total.zz - a.elastic.zz; }},
-    {"eyzp", "1", kNeedsElastic, [](const View& a) { return a.total.yz - a.elastic.yz; }},
-    {"exzp", "1", kNeedsElastic, [](const View& a) { return a.total.xz - a.elastic.xz; }},
-    {"exyp", "1", kNeedsElastic, [](const View& a) { return a.total.xy - a.elastic.xy; }},
-    {"ep", "1", kNeedsNothing, [](const View& a) { return a.set.history(a.set.plastic_strain, a.p); }},
-    {"rx", "rad", kNeedsRotation, [](const View& a) { return a.rotation.x(); }},
-    {"ry", "rad", kNeedsRotation, [](const View& a) { return a.rotation.y(); }},
-    {"rz", "rad", kNeedsRotation, [](const View& a) { return a.rotation.z(); }},
-    {"rotation", "rad", kNeedsRotation, [](const View& a) { return a.rotation.norm(); }},
-    {"ux", "m", kNeedsNothing, [](const View& a) { return moved(a, 0); }, true},
-    {"uy", "m", kNeedsNothing, [](const View& a) { return moved(a, 1); }, true},
-    {"uz", "m", kNeedsNothing, [](const View& a) { return moved(a, 2); }, true},
-    {"displacement", "m", kNeedsNothing,
-     [](const View& a) { return Vec3(moved(a, 0), moved(a, 1), moved(a, 2)).norm(); }, true},
-    {"x0", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.start_x, 0, a.p); }, true},
-    {"y0", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.start_x, 1, a.p); }, true},
-    {"z0", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.start_x, 2, a.p); }, true},
-    {"j", "1", kNeedsVolume, [](const View& a) { return a.j; }},
-    {"density", "kg/m^3", kNeedsVolume, [](const View& a) { return a.set.density / a.j; }},
-    {"volume", "m^3", kNeedsVolume, [](const View& a) { return mass(a) * a.j / a.set.density; }},
-    {"mass", "kg", kNeedsNothing, mass},
-    {"kinetic_energy", "J", kNeedsNothing, kinetic},
-    {"strain_energy", "J", kNeedsVolume, stored},
-    {"plastic_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * plastic_work(a); }},
-    {"heat_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * a.set.part_as_heat * plastic_work(a); }},
-    {"thermal_energy", "J", kNeedsNothing, thermal},
-    // Zero where the law has none.
-    {"temperature", "K", kNeedsNothing,
-     [](const View& a) { return a.set.temperature < 0 ? 0.0 : a.set.reference_temperature + heating(a); }},
-    // Brought by transport, where the scene has it.
-    {"concentration", "1", kNeedsNothing, [](const View&) { return 0.0; }},
-    {"pore_pressure", "Pa", kNeedsNothing, [](const View&) { return 0.0; }},
-    {"h0", "1", kNeedsNothing, [](const View& a) { return a.set.history(0, a.p); }},
-    {"h1", "1", kNeedsNothing, [](const View& a) { return a.set.history(1, a.p); }},
-    {"h2", "1", kNeedsNothing, [](const View& a) { return a.set.history(2, a.p); }},
-    {"h3", "1", kNeedsNothing, [](const View& a) { return a.set.history(3, a.p); }},
-    {"body", "1", kNeedsNothing, [](const View& a) { return static_cast<double>(a.set.index); }},
-};
-
-/// Rest that float32 leaves of a place: together they have it in double precision. For programs; their names cannot be
-/// written in a scene.
-double float_rest(double place) { return place - static_cast<double>(static_cast<float>(place)); }
-
-const Field kRests[] = {
-    {"x rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.x, 0, a.p)); }},
-    {"y rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.x, 1, a.p)); }},
-    {"z rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.x, 2, a.p)); }},
-    {"x0 rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.start_x, 0, a.p)); },
-     true},
-    {"y0 rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.start_x, 1, a.p)); },
-     true},
-    {"z0 rest", "m", kNeedsNothing, [](const View& a) { return float_rest(a.set.along(a.set.set.start_x, 2, a.p)); },
-     true},
-};
-
-/// Null for a name that is none of them.
-const Field* find_field(const std::string& name) {
-  const auto is_it = [&](const Field& f) { return name == f.name; };
-  const auto* const found = std::find_if(std::begin(kFields), std::end(kFields), is_it);
-  if (found != std::end(kFields)) return found;
-  const auto* const rest = std::find_if(std::begin(kRests), std::end(kRests), is_it);
-  return rest == std::end(kRests) ? nullptr : rest;
-}
-
 /// A field that is read: one of every run, or numbers that a module brought.
 struct Chosen {
-  const Field* field = nullptr;
+  const ParticleField* field = nullptr;
   std::string brought;
 };
 
@@ -205,12 +69,12 @@ void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, i
   std::vector<const double*> brought(fields.size());
   for (const SetView& view : sets) {
     for (std::size_t k = 0; k < fields.size(); ++k) brought[k] = brought_values(view.set, fields[k].brought);
-    const auto value = [&](std::size_t k, const View& particle) {
+    const auto value = [&](std::size_t k, const ParticleView& particle) {
       if (fields[k].field != nullptr) return fields[k].field->value(particle);
       return brought[k] == nullptr ? 0.0 : brought[k][particle.p];
     };
     for_parts("particles: fields for output", threads, view.set.size(), [&](int first, int end, int) {
-      View particle{view};
+      ParticleView particle{view};
       for (int p = first; p < end; ++p) {
         const std::int64_t at = row(view, p);
         if (at < 0) continue;
@@ -240,7 +104,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& name, const std::vector<SetView>& sets) {
   std::string known;
   const auto add = [&](const std::string& one) { known += known.empty() ? one : ", " + one; };
-  for (const Field& field : kFields) add(field.name);
+  for (const auto& [field, unit] : names_of_particle_fields()) add(field);
   for (const SetView& view : sets) {
     for (const NamedScalar& scalar : view.set.brought) add(scalar.name);
   }
@@ -252,7 +116,8 @@ std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std
   for (const std::string& name : names) {
     const auto has = [&](const SetView& view) { return brought_values(view.set, name) != nullptr; };
     const bool brought = std::any_of(sets.begin(), sets.end(), has);
-    const Field* field = brought ? nullptr : find_field(name);  // field of a law, unless a module brings it
+    const ParticleField* field =
+        brought ? nullptr : find_particle_field(name);  // field of a law, unless a module brings it
     fields.push_back({field, name});
     if (field == nullptr) {
       if (!brought) refuse(name, sets);
@@ -339,17 +204,13 @@ std::vector<std::int64_t> gather_rows(Communicator& ranks, const std::vector<Set
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() {
-  std::vector<std::pair<std::string, std::string>> list;
-  for (const Field& field : kFields) list.emplace_back(field.name, field.unit);
-  return list;
-}
+std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() { return names_of_particle_fields(); }
 
 void Simulation::State::check_field(const std::string& name) const { find_fields({name}, views()); }
 
 bool Simulation::needs_start(const std::vector<std::string>& fields) {
   return std::any_of(fields.begin(), fields.end(), [](const std::string& name) {
-    const Field* field = find_field(name);
+    const ParticleField* field = find_particle_field(name);
     return field != nullptr && field->of_start;
   });
 }

@@ -14,7 +14,6 @@ namespace {
 constexpr SleepPace kExplicit{8, 4, 8};
 constexpr SleepPace kImplicit{1, 1, 1};  // steps, of which one costs as much as many of the others
 constexpr int kWorthThreads = 1000;      ///< nodes
-constexpr double kNearTool = 4.0;        ///< cells: nearer to a tool nothing sleeps
 constexpr double kAtOnce = 3.0;          ///< times `wake`, from which on a block wakes after this step
 constexpr double kSlowNodes = 4.0;       ///< times the speed of sleep, below which nodes are damped
 

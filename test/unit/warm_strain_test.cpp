@@ -92,7 +92,7 @@ TEST(WarmStrain, OfAHeldBodyIsElasticByItsStress) {
   }
 }
 
-// Of a yield stress of half of what the heat would bring: Mises' flow keeps the volume, so that half of the free strain
+// Yield stress of half of what the heat would bring: Mises' flow keeps the volume, so that half of the free strain
 // has flowed along x, and a quarter of it the other way along y and z.
 TEST(WarmStrain, OfAHeldBodyThatYieldsIsPlasticByWhatItHasFlowed) {
   const Simulation run =

@@ -84,12 +84,13 @@ class Fit:
 
 
 def calibrate(measured, folder, jobs=None, start=None):
-    """`measured`: time [s] and force [N]; `start`: values to begin from, left out the best of a sample. Returns values and standard
-    errors. Values are in the units of PARAMETERS."""
+    """`measured`: time [s] and force [N]; `start`: values to begin from, or None for the best of a sample. Returns values and
+    standard errors. Values are in the units of PARAMETERS."""
     fit = Fit(measured, folder, jobs)
     low, high = np.log([[low, high] for *_, low, high in PARAMETERS]).T
     # Runs with the same force as far as doubles go would need no tolerance; a thousandth is far below 2 %.
-    found = least_squares(fit.misfit, fit.sample() if start is None else np.log(start), fit.slopes, bounds=(low, high), xtol=1e-4, ftol=1e-4, x_scale="jac")
+    begin = fit.sample() if start is None else np.log(start)
+    found = least_squares(fit.misfit, begin, fit.slopes, bounds=(low, high), xtol=1e-4, ftol=1e-4, x_scale="jac")
     scatter = 2 * found.cost / (len(found.fun) - len(found.x))
     errors = np.sqrt(np.diag(scatter * np.linalg.inv(found.jac.T @ found.jac)))
     values = np.exp(found.x)

@@ -72,6 +72,26 @@ TEST(WarmStrain, OfAFreeBodyIsNeitherElasticNorPlastic) {
   }
 }
 
+// In plane strain the free strain across the plane is held: an elastic strain of as much, and no plastic one.
+TEST(WarmStrain, OfPlanesIsHeldAcrossThemOrFree) {
+  const std::vector<std::string> flat = {"grid.min=[-0.1, -0.1]", "grid.max=[0.3, 0.3]",
+                                         "bodies.b.shape.box={min: [0, 0], max: [0.2, 0.2]}"};
+  for (const OneLaw& law : kLaws) {
+    for (const std::string geometry : {"plane_strain", "plane_stress"}) {
+      const bool held = geometry == "plane_strain";
+      if (!held && std::string(law.name) != "linear_elastic" && std::string(law.name) != "neo_hookean") continue;
+      std::vector<std::string> changes = flat;
+      changes.push_back("geometry=" + geometry);
+      const Simulation run = cube(std::string("law: ") + law.name + ", " + law.keys, changes);
+      EXPECT_NEAR(mean_of(run, "eyy"), held ? 0.0 : std::log1p(kFree), 0.01 * kFree) << law.name;
+      EXPECT_NEAR(mean_of(run, "eyye"), held ? -kFree : 0.0, 0.01 * kFree) << law.name;
+      EXPECT_NEAR(mean_of(run, "exxe"), held ? kPoisson * kFree : 0.0, 0.01 * kFree) << law.name;
+      for (const char* plastic : {"exxp", "eyyp", "ezzp"})
+        EXPECT_LT(largest_of(run, plastic), 0.01 * kFree) << law.name;
+    }
+  }
+}
+
 // Held along x alone: a stress of -E alpha dT there, and none across. The cube's elastic strain is that of the stress
 // by Hooke's law, and what it has in all is that and the free strain.
 TEST(WarmStrain, OfAHeldBodyIsElasticByItsStress) {

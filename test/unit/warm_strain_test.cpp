@@ -2,6 +2,7 @@
 // strain, whatever its law; what is held has the elastic strain of its stress. Cost: 1 s.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

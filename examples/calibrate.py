@@ -83,12 +83,14 @@ class Fit:
         return self._slopes
 
 
-def calibrate(measured, folder, jobs=None):
-    """`measured`: time [s] and force [N]. Returns values and standard errors, in the units of PARAMETERS."""
+def calibrate(measured, folder, jobs=None, start=None):
+    """`measured`: time [s] and force [N]; `start`: values to begin from, or None for the best of a sample. Returns values and
+    standard errors. Values are in the units of PARAMETERS."""
     fit = Fit(measured, folder, jobs)
     low, high = np.log([[low, high] for *_, low, high in PARAMETERS]).T
     # Runs with the same force as far as doubles go would need no tolerance; a thousandth is far below 2 %.
-    found = least_squares(fit.misfit, fit.sample(), fit.slopes, bounds=(low, high), xtol=1e-4, ftol=1e-4, x_scale="jac")
+    begin = fit.sample() if start is None else np.log(start)
+    found = least_squares(fit.misfit, begin, fit.slopes, bounds=(low, high), xtol=1e-4, ftol=1e-4, x_scale="jac")
     scatter = 2 * found.cost / (len(found.fun) - len(found.x))
     errors = np.sqrt(np.diag(scatter * np.linalg.inv(found.jac.T @ found.jac)))
     values = np.exp(found.x)
@@ -102,13 +104,18 @@ def main():
     parser.add_argument("--jobs", type=int, help="runs at once; left out, as many as the machine carries")
     parser.add_argument("--noise", type=float, default=0.0, metavar="PART",
                         help="add noise to the force, of this part of its largest, to see what becomes of the result")
+    parser.add_argument("--start", type=float, nargs=len(PARAMETERS), metavar=tuple(unit for _, unit, *_ in PARAMETERS),
+                        help="values to begin from; left out, the best of a sample")
     arguments = parser.parse_args()
+    for value, (path, unit, low, high) in zip(arguments.start or (), PARAMETERS):
+        if not low < value < high:
+            parser.error(f"--start: {path} is {value:g} {unit}; write one between {low:g} and {high:g}")
     try:
         with mpm_ros.Recording(arguments.bag) as recording:
             time, force = force_of(recording)
         noise = arguments.noise * np.abs(force).max() * np.random.default_rng(1).standard_normal(len(force))
         with tempfile.TemporaryDirectory() as own:
-            values, errors = calibrate((time, force + noise), arguments.out or own, arguments.jobs)
+            values, errors = calibrate((time, force + noise), arguments.out or own, arguments.jobs, arguments.start)
     except mpm_ros.MpmError as error:
         print(f"calibrate.py: {error}", file=sys.stderr)
         return 1

@@ -55,7 +55,14 @@ void ParticleView::look(int particle, unsigned needs) {
   if ((needs & (kNeedsStress | kNeedsElastic)) != 0) cauchy = scale_shift(tau, set.density / j, 0.0);
   if ((needs & (kNeedsStrain | kNeedsElastic)) != 0) total = half_logarithm(left_cauchy_green(f));
   if ((needs & kNeedsElastic) != 0) {
-    elastic = std::visit([&](const auto& law) { return law.elastic_strain({cauchy, tau, total, j}); }, set.law);
+    StressedPoint at{cauchy, tau, total, j};
+    free = 0.0;
+    if (set.set.free_strain >= 0) {
+      const ParticleTensors seen = without_free_strain(set.set, p, tensors);
+      at = {cauchy, seen.tau, half_logarithm(left_cauchy_green(seen.f)), seen.j};
+      free = std::log1p(set.set.brought[set.set.free_strain + 1].values[p]);
+    }
+    elastic = std::visit([&](const auto& law) { return law.elastic_strain(at); }, set.law);
   }
   if ((needs & kNeedsRotation) != 0) rotation = rotation_of(f);
 }

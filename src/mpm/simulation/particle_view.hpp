@@ -2,10 +2,11 @@
 // those that one of them needs.
 //
 // Strain is logarithmic, ln V = 1/2 ln(F F^T), in the axes that Cauchy stress is in; at small strain it is the usual
-// one. Its elastic part is what the law's elasticity makes of the stress, for laws that part the two; of the others all
-// of it is. The plastic part is the difference: exact where both have the same axes, as in proportional loading, and to
-// first order in the elastic strain elsewhere. A body that starts under stress has that stress's strain in its elastic
-// part from the start, and its plastic part is less by it.
+// one. Strain that brings no stress, of heat or moisture, is a part for itself, alike along all axes; the law sees what
+// is left. Of this the elastic part is what the law's elasticity makes of the stress, for laws that part the two; of
+// the others all of it is. The plastic part is the rest: exact where both have the same axes, as in proportional
+// loading, and to first order in the elastic strain elsewhere. A body that starts under stress has that stress's strain
+// in its elastic part from the start, and its plastic part is less by it.
 #pragma once
 
 #include "state.hpp"
@@ -18,7 +19,7 @@ enum ViewNeeds : unsigned {
   kNeedsVolume = 1,    ///< j
   kNeedsStress = 2,    ///< cauchy, and j
   kNeedsStrain = 4,    ///< total
-  kNeedsElastic = 8,   ///< elastic, total
+  kNeedsElastic = 8,   ///< elastic, free, total
   kNeedsRotation = 16  ///< rotation
 };
 
@@ -63,6 +64,7 @@ struct ParticleView {
   Symmetric3<double> cauchy{};   ///< [Pa]
   Symmetric3<double> total{};    ///< strain
   Symmetric3<double> elastic{};  ///< strain
+  double free = 0.0;             ///< logarithmic strain along each axis that brings no stress
   Vec3 rotation = Vec3::Zero();  ///< rotation of the polar decomposition: axis times angle [rad]
 
   /// Fills what `needs` (ViewNeeds) asks for of particle `particle`.

@@ -204,8 +204,6 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::cracks, Feature::solid, "a crack is a line in a plane, and would be a surface here",
        "write geometry: plane_strain, plane_stress or axisymmetric"},
       {Feature::cracks, Feature::implicit_steps, "implicit steps have one velocity at a node", kExplicit},
-      {Feature::cracks, Feature::particle_tools, "the nodes of such a body have no side of a crack",
-       "leave out its normals: particles"},
       {Feature::cracks, Feature::free_bodies,
        "tools meet cracked material at nodes, and contact at nodes does not move a body", kOneOut},
       {Feature::cracks, Feature::thin_tools, "cracks do not know the fields of a tool's two sides",

@@ -159,14 +159,13 @@ TEST(SceneMethod, CombinationsThatCannotWork) {
   EXPECT_FALSE(method_fault(method, GeometryKind::axisymmetric));
   // By itself where soil can lock, and nothing else is done against it.
   method = {};
-  EXPECT_TRUE(averages_stress(method, GeometryKind::solid, false));
-  EXPECT_FALSE(averages_stress(method, GeometryKind::line, false));
-  EXPECT_FALSE(averages_stress(method, GeometryKind::plane_stress, false));
+  EXPECT_TRUE(averages_stress(method, GeometryKind::solid));
+  EXPECT_FALSE(averages_stress(method, GeometryKind::line));
+  EXPECT_FALSE(averages_stress(method, GeometryKind::plane_stress));
   method.average_dilatation = true;
-  EXPECT_FALSE(averages_stress(method, GeometryKind::solid, false));
+  EXPECT_FALSE(averages_stress(method, GeometryKind::solid));
   method.average_stress = true;
-  EXPECT_TRUE(averages_stress(method, GeometryKind::solid, false));
-  EXPECT_FALSE(averages_stress({}, GeometryKind::solid, true)) << "a cell would join the sides of a crack";
+  EXPECT_TRUE(averages_stress(method, GeometryKind::solid));
   method = {};
   method.shape = ShapeKind::qcpdi;
   EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "shape");

@@ -25,6 +25,7 @@
 #include "mpm/crack/chain.hpp"
 #include "mpm/crack/divided_node.hpp"
 #include "mpm/crack/field_jumps.hpp"
+#include "mpm/crack/line_part.hpp"
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/ranks/communicator.hpp"
@@ -117,18 +118,10 @@ class CrackFields {
     int number, first;
     Chosen chosen;
   };
-  /// Segments of a crack near a block or a particle: from the first point on, so many points; none: fewer than two.
-  struct Part {
-    int first = 0, points = 0;
-    Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< bounds [m]
-    bool misses(const Vec2& other_low, const Vec2& other_high) const {
-      return points < 2 || (low.array() > other_high.array()).any() || (high.array() < other_low.array()).any();
-    }
-  };
   struct Tile {
     int block;                  ///< block of NodeChoice::blocks()
     std::array<int, 3> corner;  ///< number of its first node along each axis
-    std::vector<Part> parts;    ///< part of each crack
+    std::vector<LinePart> parts;    ///< part of each crack
   };
 
   /// A node in the first field of a group: its block's number (-1: none), its place there, and in node_at_.
@@ -156,8 +149,6 @@ class CrackFields {
   }
   template <class Visit>
   void each_near_block(double margin, Visit&& visit) const;
-  Part part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const;
-  Part whole(int crack) const { return {0, static_cast<int>(cracks_[crack].chain.line().size()), {}, {}}; }
   void find_wanted(const Tile& tile, std::size_t set, std::size_t particle);
   int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node);
   int take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals);
@@ -178,8 +169,8 @@ class CrackFields {
   Communicator* ranks_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
-  std::vector<Part> near_;                         ///< part of each crack, near a particle
-  mutable std::vector<Part> around_;               ///< the same near a place and the nodes around it
+  std::vector<LinePart> near_;                         ///< part of each crack, near a particle
+  mutable std::vector<LinePart> around_;               ///< the same near a place and the nodes around it
   Chosen wanted_;                                  ///< by a particle
   std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< jumps of wanted_, set only where pairs jump [m]
   std::vector<Patch> patches_;

@@ -38,6 +38,7 @@ class CrackStage final : public Stage {
     std::unique_ptr<CrackTips> tips;
     const std::vector<ParticleSet>* sets = nullptr;
     double sync = 0.0;
+    int contour = 0;     ///< half of the edge of the contours of tips [cells]
     bool counts = true;  ///< over several ranks, which all have the same cracks: whether these are reported here
     std::unique_ptr<ScalarTransfer> masses;  ///< for the limit of the first step
     std::vector<Vec2> growing;               ///< places of tips

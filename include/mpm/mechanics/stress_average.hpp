@@ -13,7 +13,8 @@
 // pressure: of the mean stress the deviator stays, and its pressure acts with USL alone, for one step.
 //
 // A cell is that between nodes. A particle that has left its block since the last sort by more than half a cell counts
-// in the nearest cell of that block.
+// in the nearest cell of that block. Where a crack cuts a cell, each side of it has a mean of its own
+// (mechanics/cell_parts.hpp): only particles near cracks are asked on which side they are.
 //
 // Weak: a part of the locking remains, since a band is still smeared over cells. Cells do not move with the material.
 // Where few particles are left in a cell, there is less to average. With hardening the weaker particles of a cell lie
@@ -27,10 +28,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/mechanics/cell_parts.hpp"
 #include "mpm/ranks/halo.hpp"
 #include "mpm/step/stage.hpp"
 
@@ -47,6 +51,10 @@ class StressAverage final : public Stage {
   /// The sets outlive the stage, and are not sorted yet: each gets a number more for its particles. `halo`: where
   /// other ranks have particles in the same cells, else null.
   StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads, Halo* halo = nullptr);
+
+  /// Takes means of the parts of cells, for particles that choose a field at every node; before the first step.
+  /// `choice` outlives the stage.
+  void divide(const NodeChoice& choice, std::unique_ptr<CellParts> parts);
 
   std::string name() const override { return "stress_average"; }
   Ranks ranks(Hook) const override { return {Rank::particle_stress}; }
@@ -72,32 +80,47 @@ class StressAverage final : public Stage {
   struct Cells {
     std::uint64_t generation = 0;   ///< generation of the blocks that these are for
     std::vector<int> of_set_block;  ///< place where the cells of a set in a block begin, or -1
-    std::vector<Cell> all;          ///< by the node at their lower corner
+    std::vector<Cell> all;          ///< by the node at their lower corner, and then by part
+  };
+  /// Particles of a set that lie in one block, the one of this owner.
+  struct Place {
+    std::size_t set;
+    std::uint32_t first, end;
+    int owner;
+    const CellParts* parts;  ///< parts of cells that they are in; null: all in the first
   };
 
   /// Visits every set with its number, its particles' plastic strains before, a value of their scalar type, and its
   /// law.
   template <class Visit>
   void each_set(Visit&& visit);
-  void find_cells(const Grid& grid, Cells& cells) const;
-  /// Adds the flowing particles of a block to their cells.
+  /// visit(Place) for all particles of a set that choose a field at every node, from those of this field, patch by
+  /// patch.
+  template <class Visit>
+  void each_patch(const Grid& grid, int field, std::size_t set, Visit&& visit) const;
+  void find_cells(const Grid& grid, int field, Cells& cells) const;
+  /// Adds flowing particles to their cells.
   template <class Geometry, class T, class LawType>
-  void gather(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner, Cells& cells);
-  /// Gives the means to the flowing particles of a block, and takes note of the plastic strains of all of them for the
-  /// next step. Returns the energy that the particles lose [J].
+  void gather(const Place& place, const LawType& law, double* before, const Grid& grid, Cells& cells);
+  /// Gives the means to flowing particles, and takes note of the plastic strains of all for the next step. Returns the
+  /// energy that the particles lose [J].
   template <class Geometry, class T, class LawType>
-  double share(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner, Cells& cells);
+  double share(const Place& place, const LawType& law, double* before, const Grid& grid, Cells& cells);
   template <class Geometry>
   void average(const Grid& grid, int field, Cells& cells);
-  void exchange(const Grid& grid, int field, Cells& cells);
-  /// The cell with this number along each axis, from -1, counted from the first of an owner's block.
-  static Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, const int* of_block, Cells& cells);
+  void exchange(const Grid& grid, int field, int part, Cells& cells);
+  /// A part of the cell with this number along each axis, from -1, counted from the first of an owner's block.
+  Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, int part, const int* of_block,
+                Cells& cells) const;
 
   std::vector<AveragedSet> sets_;
   std::vector<std::size_t> places_;  ///< number that each set was given
   GeometryKind geometry_;
   int threads_;
   Halo* halo_;
+  const NodeChoice* choice_ = nullptr;  ///< null without cracks, as `parts_` is
+  std::unique_ptr<CellParts> parts_;
+  int most_parts_ = 1;            ///< number that a cell may have
   std::vector<Cells> cells_;      ///< cells of each field
   std::uint32_t step_ = 0;        ///< counts, so that what an earlier step left in a cell is known as that
   std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]

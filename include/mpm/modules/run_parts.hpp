@@ -28,6 +28,7 @@ class DampingControl;
 class FollowingBed;
 class HeatSink;
 class Sleep;
+class StressAverage;
 class ToolSides;
 class TransportedField;
 
@@ -65,6 +66,7 @@ struct RunParts {
   HeatSink* heat = nullptr;
   TransportedField* temperature = nullptr;
   Sleep* sleep = nullptr;
+  StressAverage* stress_average = nullptr;
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();

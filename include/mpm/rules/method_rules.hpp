@@ -23,8 +23,8 @@ std::optional<MethodFault> method_fault(const MethodDefinition& method, Geometry
 double stable_cfl(const Transfer& transfer);
 
 /// True if what flows has one stress in a cell. If the method does not say so: wherever it can lock, unless another
-/// remedy, average_dilatation, is chosen, or cracks are there, whose two sides a cell would join.
-bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks);
+/// remedy, average_dilatation, is chosen.
+bool averages_stress(const MethodDefinition& method, GeometryKind geometry);
 /// True if the balance of energy of scenes of a law was measured, and closes to 1 %: soil whose stiffness is its own.
 /// No elastic energy is known that closed paths leave as it was where stiffness follows the pressure (2.8 % of the
 /// energy spent under a plate on cam_clay that moves up and down).

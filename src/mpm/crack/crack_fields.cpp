@@ -121,31 +121,6 @@ bool CrackFields::needs_sort() const {
   return needs;
 }
 
-// The fewest consecutive segments that hold all of `within` whose bounds meet those of the box.
-CrackFields::Part CrackFields::part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const {
-  const std::vector<Vec2>& line = cracks_[crack].chain.line();
-  const std::vector<Chain::Extent>& extents = cracks_[crack].chain.extents();
-  int first = -1, last = -1;
-  for (int k = within.first; k + 1 < within.first + within.points; ++k) {
-    if (k % Chain::kRun == 0 && extents[k / Chain::kRun].misses(low, high)) {
-      k += Chain::kRun - 1;
-      continue;
-    }
-    const Vec2 &a = line[k], &b = line[k + 1];
-    if (std::min(a[0], b[0]) > high[0] || std::max(a[0], b[0]) < low[0]) continue;
-    if (std::min(a[1], b[1]) > high[1] || std::max(a[1], b[1]) < low[1]) continue;
-    if (first < 0) first = k;
-    last = k;
-  }
-  if (first < 0) return {};
-  Part part{first, last - first + 2, line[first], line[first]};
-  for (int k = first + 1; k < first + part.points; ++k) {
-    part.low = part.low.cwiseMin(line[k]);
-    part.high = part.high.cwiseMax(line[k]);
-  }
-  return part;
-}
-
 DividedNode& CrackFields::divided_node(const Tile& tile, int tile_node, int first, const Vec2& place) {
   const NodeChoice::Node of = choice_.node_of(tile.block, tile_node, first);
   int& at = node_at_[first][static_cast<std::size_t>(of.block) * choice_.grid().layout.nodes_per_block() + of.node];
@@ -168,7 +143,7 @@ int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, con
   CracksBetween between;
   std::array<Vec2, 2> normals{Vec2::Zero(), Vec2::Zero()};
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    const Part& part = near_[c];
+    const LinePart& part = near_[c];
     if (cracks_[c].divides[set] == 0 || part.misses(low, high)) continue;
     const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, particle, node);
     if (!found.crosses) continue;
@@ -230,7 +205,7 @@ void CrackFields::find_wanted(const Tile& tile, std::size_t set, std::size_t par
   bool any = false;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     near_[c] = {};
-    if (!tile.parts[c].misses(low, high)) near_[c] = part_between(static_cast<int>(c), tile.parts[c], low, high);
+    if (!tile.parts[c].misses(low, high)) near_[c] = part_between(cracks_[c].chain, tile.parts[c], low, high);
     any = any || near_[c].points >= 2;
   }
   wanted_.nodes = wanted_.jumping = 0;
@@ -348,7 +323,7 @@ void CrackFields::find_patches() {
     for (std::size_t c = 0; c < cracks_.size(); ++c) {
       tile_.parts[c] = {};
       if (!cracks_[c].felt) continue;
-      tile_.parts[c] = part_between(static_cast<int>(c), whole(static_cast<int>(c)), low, high);
+      tile_.parts[c] = part_between(cracks_[c].chain, whole_line(cracks_[c].chain), low, high);
     }
     patches_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {

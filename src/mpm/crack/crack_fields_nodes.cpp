@@ -28,9 +28,11 @@ void CrackFields::look_around(int first, const Vec2& place, const Vec2& from) co
     high[k] = std::max(high[k], layout.origin(k) + layout.cell(k) * (node + 1.0));
   }
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    const int crack = static_cast<int>(c);
+    const Chain& chain = cracks_[c].chain;
     around_[c] = {};
-    if (cracks_[c].felt && divides(crack, first)) around_[c] = part_between(crack, whole(crack), low, high);
+    if (cracks_[c].felt && divides(static_cast<int>(c), first)) {
+      around_[c] = part_between(chain, whole_line(chain), low, high);
+    }
   }
 }
 
@@ -43,7 +45,7 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
   CracksBetween between;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     if (around_[c].points < 2) continue;
-    const Part part = part_between(static_cast<int>(c), around_[c], from.cwiseMin(place), from.cwiseMax(place));
+    const LinePart part = part_between(cracks_[c].chain, around_[c], from.cwiseMin(place), from.cwiseMax(place));
     if (part.points < 2) continue;
     const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, from, place);
     if (!found.crosses) continue;

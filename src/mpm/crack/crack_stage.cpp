@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mpm/crack/periodic_reach.hpp"
+
 namespace mpm {
 namespace {
 
@@ -67,6 +69,8 @@ void CrackStage::grid_advanced(StepContext& context) {
   } catch (const CrackError& error) {
     throw ModuleError(error.what());
   }
+  const std::string fault = periodic_fault(parts_->cracks, context.layout(), parts_->contour);
+  if (!fault.empty()) throw ModuleError(fault);
 }
 
 void CrackStage::limit_step(const PeriodAhead& period, StepLimit& limit) const {

@@ -93,6 +93,25 @@ class Particles {
   std::array<T*, kRows> gradient_;
 };
 
+/// Owner of the block with this key.
+int owner_of(const BlockTable& blocks, std::uint64_t key) {
+  int first = 0, end = blocks.owners();
+  while (first < end) {
+    const int middle = (first + end) / 2;
+    if (blocks.key(blocks.owner_block(middle)) < key) {
+      first = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return first;
+}
+
+/// Part of its cell that a particle is in.
+int part_of(const CellParts* parts, const ParticleSet& set, const std::array<int, 3>& cell, std::uint32_t p) {
+  return parts == nullptr ? 0 : parts->part_of(set, cell, {set.x[0][p], set.x[1][p]});
+}
+
 }  // namespace
 
 StressAverage::StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads, Halo* halo)
@@ -118,50 +137,77 @@ void StressAverage::each_set(Visit&& visit) {
   }
 }
 
+void StressAverage::divide(const NodeChoice& choice, std::unique_ptr<CellParts> parts) {
+  choice_ = &choice;
+  most_parts_ = parts->most();
+  parts_ = std::move(parts);
+}
+
 // A block's particles are in its own cells, and in the last ones of the blocks before it.
-void StressAverage::find_cells(const Grid& grid, Cells& cells) const {
+void StressAverage::find_cells(const Grid& grid, int field, Cells& cells) const {
   if (cells.generation == grid.blocks.generation()) return;
   cells.generation = grid.blocks.generation();
   const int dim = grid.layout.dim(), blocks = grid.blocks.size();
   cells.of_set_block.assign(sets_.size() * blocks, -1);
   int used = 0;
   for (std::size_t s = 0; s < sets_.size(); ++s) {
-    const std::uint32_t* begin = &sets_[s].set->begin[grid.first_owner];
-    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
-      if (begin[owner] == begin[owner + 1]) continue;
+    const ParticleSet& set = *sets_[s].set;
+    const std::uint32_t* begin = &set.begin[grid.first_owner];
+    const auto add = [&](int owner) {
       for (int before = 0; before < 1 << dim; ++before) {
         int neighbour = 0;
         for (int k = 0; k < dim; ++k) neighbour = 3 * neighbour + 1 - (before >> k & 1);
         int& place = cells.of_set_block[s * blocks + grid.blocks.neighbours(owner)[neighbour]];
         if (place < 0) place = grid.layout.nodes_per_block() * used++;
       }
+    };
+    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
+      if (begin[owner] != begin[owner + 1]) add(owner);
     }
+    if (choice_ == nullptr || !set.chooses || set.field != field) continue;
+    for (const std::uint64_t key : choice_->blocks()) add(owner_of(grid.blocks, key));
   }
-  const std::size_t needed = static_cast<std::size_t>(grid.layout.nodes_per_block()) * used;
+  const std::size_t needed = static_cast<std::size_t>(most_parts_) * grid.layout.nodes_per_block() * used;
   if (cells.all.size() < needed) cells.all.resize(needed);
 }
 
-StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell,
-                                            const int* of_block, Cells& cells) {
+StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, int part,
+                                            const int* of_block, Cells& cells) const {
   int neighbour = 0, local = 0;
   for (int k = 0; k < grid.layout.dim(); ++k) {
     neighbour = 3 * neighbour + (cell[k] < 0 ? 0 : 1);
     local = kBlockEdge * local + (cell[k] < 0 ? kBlockEdge - 1 : cell[k]);
   }
-  return cells.all[of_block[grid.blocks.neighbours(owner)[neighbour]] + local];
+  return cells.all[most_parts_ * (of_block[grid.blocks.neighbours(owner)[neighbour]] + local) + part];
+}
+
+template <class Visit>
+void StressAverage::each_patch(const Grid& grid, int field, std::size_t s, Visit&& visit) const {
+  const ParticleSet& set = *sets_[s].set;
+  if (choice_ == nullptr || !set.chooses || set.field != field) return;
+  const Grid& patches = choice_->grid();
+  const std::uint32_t* begin = &set.begin[patches.first_owner];
+  int owner = -1;
+  for (int patch = 0; patch < choice_->patches(); ++patch) {
+    const std::uint64_t key = patches.blocks.key(patches.blocks.owner_block(patch));
+    if (owner < 0 || key != grid.blocks.key(grid.blocks.owner_block(owner))) {
+      owner = owner_of(grid.blocks, key);
+      parts_->look_at(grid.blocks.block(grid.blocks.owner_block(owner)));
+    }
+    if (begin[patch] != begin[patch + 1]) visit(Place{s, begin[patch], begin[patch + 1], owner, parts_.get()});
+  }
 }
 
 template <class Geometry, class T, class LawType>
-void StressAverage::gather(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner,
-                           Cells& cells) {
-  const AveragedSet& one = sets_[set];
+void StressAverage::gather(const Place& place, const LawType& law, double* before, const Grid& grid, Cells& cells) {
+  const AveragedSet& one = sets_[place.set];
   const Particles<Geometry, T, LawType> particles(*one.set, law, before);
-  const int* of_block = &cells.of_set_block[set * grid.blocks.size()];
-  const int place = grid.first_owner + owner;
-  const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
-  for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
+  const int* of_block = &cells.of_set_block[place.set * grid.blocks.size()];
+  const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(place.owner));
+  for (std::uint32_t p = place.first; p < place.end; ++p) {
     if (!particles.flows(p)) continue;
-    Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin), of_block, cells);
+    const std::array<int, 3> at = particles.cell(p, grid.layout, origin);
+    Cell& cell = cell_at(grid, place.owner, at, part_of(place.parts, *one.set, at, p), of_block, cells);
     if (cell.step != step_) {
       cell = {};
       cell.step = step_;
@@ -176,20 +222,19 @@ void StressAverage::gather(std::size_t set, const LawType& law, double* before, 
 }
 
 template <class Geometry, class T, class LawType>
-double StressAverage::share(std::size_t set, const LawType& law, double* before, const Grid& grid, int owner,
-                            Cells& cells) {
+double StressAverage::share(const Place& place, const LawType& law, double* before, const Grid& grid, Cells& cells) {
   using Tensor = Stored<Geometry>;
-  const AveragedSet& one = sets_[set];
+  const AveragedSet& one = sets_[place.set];
   Particles<Geometry, T, LawType> particles(*one.set, law, before);
-  const int* of_block = &cells.of_set_block[set * grid.blocks.size()];
-  const int place = grid.first_owner + owner;
-  const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
+  const int* of_block = &cells.of_set_block[place.set * grid.blocks.size()];
+  const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(place.owner));
   double lost = 0.0;
-  for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
+  for (std::uint32_t p = place.first; p < place.end; ++p) {
     const bool flows = particles.flows(p);
     particles.remember(p);
     if (!flows) continue;
-    const Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin), of_block, cells);
+    const std::array<int, 3> at = particles.cell(p, grid.layout, origin);
+    const Cell& cell = cell_at(grid, place.owner, at, part_of(place.parts, *one.set, at, p), of_block, cells);
     if (cell.particles < 2) continue;
     const double inverse_mass = 1.0 / cell.mass;
     typename Tensor::Stress mean;
@@ -205,8 +250,8 @@ double StressAverage::share(std::size_t set, const LawType& law, double* before,
   return lost;
 }
 
-// Each cell's sums over all ranks, where several have particles in it.
-void StressAverage::exchange(const Grid& grid, int field, Cells& cells) {
+// Sums of one part of each cell over all ranks, where several have particles in it.
+void StressAverage::exchange(const Grid& grid, int field, int part, Cells& cells) {
   constexpr int kMass = 0, kVolume = 1, kParticles = 2, kStress = 3;
   const int nodes = grid.layout.nodes_per_block(), blocks = grid.blocks.size();
   NodalField sums(kStress + static_cast<int>(Cell().stress.size()), nodes);
@@ -216,7 +261,9 @@ void StressAverage::exchange(const Grid& grid, int field, Cells& cells) {
     std::fill_n(sums.data(), sums.size(), 0.0);
     const auto each_cell = [&](auto&& visit) {
       for (int b = 0; b < blocks; ++b) {
-        for (int n = 0; n < nodes && of_block[b] >= 0; ++n) visit(cells.all[of_block[b] + n], b, n);
+        for (int n = 0; n < nodes && of_block[b] >= 0; ++n) {
+          visit(cells.all[most_parts_ * (of_block[b] + n) + part], b, n);
+        }
       }
     };
     each_cell([&](const Cell& cell, int b, int n) {
@@ -242,21 +289,33 @@ void StressAverage::exchange(const Grid& grid, int field, Cells& cells) {
 
 template <class Geometry>
 void StressAverage::average(const Grid& grid, int field, Cells& cells) {
-  find_cells(grid, cells);
+  find_cells(grid, field, cells);
   of_owner_.assign(grid.blocks.owners(), 0.0);
+  const auto of_block = [&](std::size_t s, int owner) {
+    const std::uint32_t* begin = &sets_[s].set->begin[grid.first_owner + owner];
+    return Place{s, begin[0], begin[1], owner, nullptr};
+  };
   // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
   grid.shares.by_colour("particles: stress to cells", threads_, [&](int owner) {
     each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
-      gather<Geometry, decltype(scalar)>(s, law, before, grid, owner, cells);
+      gather<Geometry, decltype(scalar)>(of_block(s, owner), law, before, grid, cells);
     });
   });
-  if (halo_ != nullptr) exchange(grid, field, cells);
+  each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
+    each_patch(grid, field, s,
+               [&](const Place& at) { gather<Geometry, decltype(scalar)>(at, law, before, grid, cells); });
+  });
+  for (int part = 0; part < most_parts_ && halo_ != nullptr; ++part) exchange(grid, field, part, cells);
   grid.shares.at_once("cells: stress to particles", threads_, [&](int owner) {
     each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
-      of_owner_[owner] += share<Geometry, decltype(scalar)>(s, law, before, grid, owner, cells);
+      of_owner_[owner] += share<Geometry, decltype(scalar)>(of_block(s, owner), law, before, grid, cells);
     });
   });
   for (const double lost : of_owner_) taken_ += lost;
+  each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
+    each_patch(grid, field, s,
+               [&](const Place& at) { taken_ += share<Geometry, decltype(scalar)>(at, law, before, grid, cells); });
+  });
 }
 
 void StressAverage::momentum_gathered(StepContext& context) {

@@ -1,10 +1,13 @@
 // The explicit cracks of a definition as modules.
 #include <fmt/core.h>
 
+#include "mpm/crack/crack_cells.hpp"
 #include "mpm/crack/crack_stage.hpp"
+#include "mpm/crack/periodic_reach.hpp"
 #include "mpm/definition/definition.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"
+#include "mpm/mechanics/stress_average.hpp"
 #include "mpm/modules/shipped_modules.hpp"
 #include "mpm/modules/with_precision.hpp"
 #include "mpm/ranks/of_all.hpp"
@@ -75,6 +78,10 @@ void add_cracks(RunParts& parts) {
     for (const ParticleSet& set : parts.sets) one.divides.push_back(asked.divides(crack, set.name) ? 1 : 0);
     made->cracks.push_back(std::move(one));
   }
+  made->contour = asked.contour.size;
+  if (const std::string fault = periodic_fault(made->cracks, parts.layout(), made->contour); !fault.empty()) {
+    throw DefinitionError(fault);
+  }
   for (ParticleSet& set : parts.sets) {
     if (set.start_x.empty()) set.start_x = set.x;
   }
@@ -94,6 +101,9 @@ void add_cracks(RunParts& parts) {
     const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);
     parts.halo->add_everywhere(
         [chosen = made->chosen.get(), reach](const std::array<int, 3>& block) { return chosen->near(block, reach); });
+  }
+  if (parts.stress_average != nullptr) {
+    parts.stress_average->divide(*parts.choice, std::make_unique<CrackCells>(made->cracks, parts.sets, parts.layout()));
   }
   made->counts = is_first(parts.ranks);
   made->motion = std::make_unique<CrackMotion>(made->cracks, *made->chosen, parts.fields, asked.move, asked.prevent);

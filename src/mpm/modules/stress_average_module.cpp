@@ -12,7 +12,7 @@ namespace mpm {
 
 void add_stress_average(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
-  if (!averages_stress(definition.method, definition.geometry, definition.cracks.any())) return;
+  if (!averages_stress(definition.method, definition.geometry)) return;
   std::vector<AveragedSet> sets;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
     if (shares_stress(definition, definition.bodies[s])) sets.push_back({&parts.sets[s], &parts.laws[s]});
@@ -24,7 +24,8 @@ void add_stress_average(RunParts& parts) {
         "expands with heat or moisture has none; leave it out",
         law_names([](const LawTraits& traits) { return traits.averages_stress; })));
   }
-  parts.modules.add(std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads, parts.halo));
+  parts.stress_average = &parts.modules.add(
+      std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads, parts.halo));
 }
 
 }  // namespace mpm

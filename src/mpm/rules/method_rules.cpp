@@ -138,8 +138,8 @@ double stable_cfl(const Transfer& transfer) {
   return transfer.kind == TransferKind::fmpm && transfer.order >= 5 ? 0.9 : 1.0;
 }
 
-bool averages_stress(const MethodDefinition& method, GeometryKind geometry, bool cracks) {
-  const bool sensible = may_lock(geometry) && !method.average_dilatation && !cracks;
+bool averages_stress(const MethodDefinition& method, GeometryKind geometry) {
+  const bool sensible = may_lock(geometry) && !method.average_dilatation;
   return method.average_stress.value_or(sensible && method.update != UpdateScheme::implicit);
 }
 

@@ -78,7 +78,7 @@ const KeyTable<MethodDefinition>& method_keys() {
               "incompressibility; not in a line or in plane stress, where nothing locks",
               "true"}),
        plain("average_stress", &Method::average_stress,
-             {"`true`, unless `average_dilatation` is on or there are cracks",
+             {"`true`, unless `average_dilatation` is on",
               "particles of a body of `drucker_prager`, `mohr_coulomb`, `mu_i` or `j2_plasticity` that flow in a cell "
               "share their mean stress: against locking of slip bands and ringing pressure, see "
               "[below](#average_stress); not in a line or in plane stress",

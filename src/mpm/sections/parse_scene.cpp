@@ -72,11 +72,9 @@ void tell_of_averages(Scene& scene) {
   const bool flows = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                  [&](const DeformableBody& body) { return shares_stress(definition, body); });
   if (!flows || definition.method.average_stress) return;
-  if (averages_stress(definition.method, definition.geometry, definition.cracks.any())) {
+  if (averages_stress(definition.method, definition.geometry)) {
     scene.choices.emplace_back("method.average_stress",
                                "true: what flows has one stress in a cell, against too much force on tools");
-  } else if (averages_stress(definition.method, definition.geometry, false)) {
-    scene.choices.emplace_back("method.average_stress", "false: a cell would join the two sides of a crack");
   }
 }
 

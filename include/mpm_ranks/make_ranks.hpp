@@ -49,6 +49,11 @@ void refuse_ranks(const std::string& what);
 /// @throws RanksEnded if the ranks are not those of make_ranks() but a test's
 int end_all(const Communicator& ranks, const std::string& reason, int code);
 
+/// For a rank on which something has failed that all ranks do together, before it goes on to something else. Returns
+/// where all ranks come here within a second: it has failed on all of them, alike. Else this rank tells the reason, a
+/// line for stderr, and the processes of all ranks end with `code`. Ranks of a test are taken to fail alike.
+void fail_alike(const Communicator& ranks, const std::string& reason, int code);
+
 /// Number of threads a rank may take so that those of the same machine do not stand in each other's way.
 int threads_of_rank(const Communicator& ranks);
 

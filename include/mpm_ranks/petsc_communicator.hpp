@@ -25,6 +25,7 @@ class PetscCommunicator final : public Communicator {
   void sum(double* numbers, int count) override;
   void largest(double* numbers, int count) override;
   std::vector<Bytes> gather(const Bytes& own) override;
+  Bytes of_first(const Bytes& own) override;
   std::vector<Parcel> deliver(const std::vector<Parcel>& parcels) override;
   void place(const std::vector<double>& own, const std::vector<std::uint64_t>& places, double* to,
              std::size_t size) override;

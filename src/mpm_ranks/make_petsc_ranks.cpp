@@ -25,12 +25,17 @@ std::shared_ptr<Communicator> make_ranks() {
 }
 
 int end_all(const Communicator& ranks, const std::string& reason, int code) {
+  if (dynamic_cast<const PetscCommunicator*>(&ranks) == nullptr) throw RanksEnded(reason, code);
+  fail_alike(ranks, reason, code);
+  if (ranks.first()) std::fprintf(stderr, "%s\n", reason.c_str());
+  return code;
+}
+
+void fail_alike(const Communicator& ranks, const std::string& reason, int code) {
   const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
-  if (petsc == nullptr) throw RanksEnded(reason, code);
   constexpr double kGrace = 1.0;  ///< [s] in which ranks that fail alike come together
-  const bool all = petsc->all_come(kGrace);
-  if (!all || ranks.first()) std::fprintf(stderr, "%s\n", reason.c_str());
-  if (all) return code;
+  if (petsc == nullptr || petsc->all_come(kGrace)) return;
+  std::fprintf(stderr, "%s\n", reason.c_str());
   std::fflush(nullptr);
   MPI_Abort(MPI_COMM_WORLD, code);
   std::abort();  // MPI_Abort does not return

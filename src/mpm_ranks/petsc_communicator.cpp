@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kPiece = 256;
 /// Numbers of all ranks that are gathered at once to be added.
 constexpr int kGathered = 1 << 16;
+/// [s] in which a rank that waits for the first one hears it at once.
+constexpr double kAlert = 0.02;
 
 std::size_t pieces(std::uint64_t bytes) { return (bytes + kPiece - 1) / kPiece; }
 
@@ -200,6 +202,31 @@ std::vector<Communicator::Bytes> PetscCommunicator::gather(const Bytes& own) {
     list[rank].assign(begin, begin + counts[rank]);
   }
   return list;
+}
+
+// MPI waits by asking again and again, which takes a processor as long as it lasts.
+Communicator::Bytes PetscCommunicator::of_first(const Bytes& own) {
+  const MPI_Comm all = state_->session.all();
+  std::uint64_t bytes = own.size();
+  MPI_Request request = MPI_REQUEST_NULL;
+  check_mpi(MPI_Ibcast(&bytes, 1, MPI_UINT64_T, 0, all, &request));
+  const double begun = MPI_Wtime();
+  for (int come = 0;;) {
+    check_mpi(MPI_Test(&request, &come, MPI_STATUS_IGNORE));
+    if (come != 0) break;
+    if (MPI_Wtime() - begun < kAlert) {
+      std::this_thread::yield();
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  if (bytes > INT_MAX) {
+    throw RanksError(fmt::format("ranks: {} bytes are too many to tell all ranks: at most 2 GiB", bytes));
+  }
+  Bytes told = first() ? own : Bytes(bytes);
+  check_mpi(MPI_Bcast(told.data(), static_cast<int>(bytes), MPI_BYTE, 0, all));
+  state_->count_shared(first() ? sizeof(bytes) + bytes : 0);
+  return told;
 }
 
 std::vector<Communicator::Parcel> PetscCommunicator::deliver(const std::vector<Parcel>& parcels) {

@@ -62,6 +62,13 @@ void gathered_bytes_come_in_the_order_of_ranks(Communicator& ranks) {
   }
 }
 
+void all_hear_the_first(Communicator& ranks) {
+  for (const std::size_t times : {0, 1, 1000, 300'000}) {
+    const Bytes told = ranks.of_first(bytes_for(ranks.rank(), 1, times));
+    EXPECT_TRUE(told == bytes_for(0, 1, times)) << times << " on " << ranks.rank();
+  }
+}
+
 void parcels_arrive_whole_in_the_order_of_senders(Communicator& ranks) {
   const int self = ranks.rank();
   // Not every rank sends to every other, and not in both directions.
@@ -166,6 +173,7 @@ std::vector<RanksPromise> communicator_promises() {
   return {{"SumsAreAddedInTheOrderOfRanks", sums_are_added_in_the_order_of_ranks},
           {"TheLargestIsThatOfAllRanks", the_largest_is_that_of_all_ranks},
           {"GatheredBytesComeInTheOrderOfRanks", gathered_bytes_come_in_the_order_of_ranks},
+          {"AllHearTheFirst", all_hear_the_first},
           {"ParcelsArriveWholeInTheOrderOfSenders", parcels_arrive_whole_in_the_order_of_senders},
           {"ValuesArePlacedOnTheFirstRank", values_are_placed_on_the_first_rank},
           {"CopiesFollowTheirSources", copies_follow_their_sources},

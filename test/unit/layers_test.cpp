@@ -25,7 +25,7 @@ const Layers kLayers = {
     {"crack", 6},       {"definition", 7}, {"rules", 8},       {"choice", 8},    {"modules", 9},   {"start", 9},
     {"simulation", 10}, {"pace", 11},      {"checkpoint", 11}, {"scene", 12},    {"yaml", 13},     {"terrain", 14},
     {"advice", 15},     {"building", 16},  {"sections", 16},   {"sweep", 17},    {"volumes", 5},   {"bed", 6}};
-const Layers kRosLayers = {{"message", 1}, {"csv", 2},    {"command", 3}, {"sweep", 3}, {"aim", 4},
+const Layers kRosLayers = {{"message", 1}, {"csv", 2},    {"command", 3}, {"sweep", 3}, {"aim", 4},     {"lead", 3},
                            {"report", 4},  {"record", 5}, {"run", 6},     {"node", 7},  {"sweeping", 7}};
 
 struct Include {

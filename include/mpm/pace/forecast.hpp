@@ -38,9 +38,11 @@ struct Forecast {
 
 /// Times a copy of a run, unsettled, that is built for this alone and freed again. Takes the time to build it besides
 /// the budget [s] (StepTimer). Returns nothing when not one step was made.
+/// `ranks`: null for this process alone; else all of them time it together, by the clock of the first, and have the
+/// same result; the definition is that which build() made for them, and a stop is that of any.
 /// @throws Error as Simulation has it, StoppedError when `stop` was true
 std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, std::optional<Isa> isa, double budget,
-                                  const std::function<bool()>& stop);
+                                  const std::function<bool()>& stop, Communicator* ranks = nullptr);
 
 /// "0.13 of real time expected on 2 threads; 1.5 s will take 11 s of wall time (2084 steps of 5.4 ms)", and what it
 /// does not know.

@@ -57,6 +57,9 @@ class Communicator {
   virtual void largest(double* numbers, int count) = 0;
   /// Returns what each rank gives, by rank, on all ranks.
   virtual std::vector<Bytes> gather(const Bytes& own) = 0;
+  /// Returns what the first rank gives; of the others nothing is read. They may have to wait for long, until somebody
+  /// asks the first one for something, and leave their processors to others meanwhile.
+  virtual Bytes of_first(const Bytes& own) { return gather(first() ? own : Bytes()).front(); }
   /// Hands over parcels to other ranks. Returns those for this rank, in the order of the senders.
   virtual std::vector<Parcel> deliver(const std::vector<Parcel>& parcels) = 0;
   /// On the first rank to[places[i]] becomes own[i] of every rank; `to` is not read on the others.

@@ -26,7 +26,13 @@ struct Aim {
 /// Chooses for a scene whose target is open; any other comes back as it is, with the news of a choice that was
 /// recorded.
 /// @param threads as RunOptions has it, 0: chosen by the run
+/// `ranks`: null for a process that is alone; else this is the first of them, and the others follow its orders.
 /// @throws mpm::StoppedError, mpm::SceneError where no figures are for such a scene
-Aim aim(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop);
+Aim aim(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop,
+        mpm::Communicator* ranks = nullptr);
+/// The same, to be called on all ranks: the first chooses, with what all of them time together, and the others have its
+/// choice, or what it throws.
+Aim aim_together(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop,
+                 mpm::Communicator* ranks);
 
 }  // namespace mpm_ros

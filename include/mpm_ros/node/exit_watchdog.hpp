@@ -11,6 +11,8 @@ namespace mpm_ros {
 
 class ExitWatchdog {
  public:
+  static constexpr std::chrono::milliseconds kPatience{900};
+
   /// Watches from here on, in a thread that lasts as long as the process, and so must this. A stop (stop_signals.hpp)
   /// ends the process after 0.9 s, with exit code 0, until must_finish().
   /// `patience`: with what roscpp does at the end of a node that nobody stopped.
@@ -23,10 +25,11 @@ class ExitWatchdog {
 
   /// While one exists, its thread may be deaf to a stop for long, as when a scene is built beside a run whose record is
   /// open. A stop then ends the process after 0.9 s all the same: `close`, called by the watchdog's thread, closes the
-  /// record, and returns the exit code. The thread that made it does not come past its end any more.
+  /// record, and returns the exit code. The thread that made it does not come past its end any more. `patience`: in
+  /// place of the 0.9 s.
   class Deaf {
    public:
-    Deaf(ExitWatchdog& watchdog, std::function<int()> close);
+    Deaf(ExitWatchdog& watchdog, std::function<int()> close, std::chrono::milliseconds patience = kPatience);
     ~Deaf();
     Deaf(const Deaf&) = delete;
     Deaf& operator=(const Deaf&) = delete;
@@ -44,6 +47,7 @@ class ExitWatchdog {
   std::atomic<bool> ends_{false};
   std::mutex mutex_;  ///< mutex of close_
   std::function<int()> close_;
+  std::chrono::milliseconds close_after_{kPatience};  ///< the same mutex
 };
 
 }  // namespace mpm_ros

@@ -44,8 +44,10 @@ class SimulatorNode {
  public:
   /// Loads the scene, once the messages are there from which it takes heights, and makes the first run ready.
   /// `watchdog`, which must outlive it, ends the process when a stop comes while a reset builds a scene.
+  /// `ranks`: null for a process that is alone; else this is the first of them, and the others follow() it.
   /// @throws mpm::Error, ParameterError, BagError: bad input, exit code 2. @throws mpm::StoppedError
-  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, ExitWatchdog& watchdog);
+  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, ExitWatchdog& watchdog,
+                std::shared_ptr<mpm::Communicator> ranks = {});
   ~SimulatorNode();
   /// Looks whether another node does what this one would do too: warns of a second clock.
   /// @throws ParameterError where one offers its services
@@ -55,6 +57,7 @@ class SimulatorNode {
   /// stop (stop_signals.hpp, or a shutdown of ROS). Returns the exit code, with keep_alive that of the last run: 0
   /// done, 1 a bag could not be written, 2 bad input that showed only now (a function of time that is not finite,
   /// recorded commands of another scene), 3 the physics failed (or silence, with on_timeout error).
+  /// @throws mpm::RankFailure where one of several ranks has failed alone: all have to be ended
   int spin();
 
  private:
@@ -70,6 +73,10 @@ class SimulatorNode {
   };
   /// The scene with `set` over what ~set says. @throws mpm::Error
   mpm::Scene load(const std::vector<std::string>& set) const;
+  /// The options of run_options() with what belongs to the ranks.
+  RunOptions options_of_run(const mpm::Scene& scene, const std::vector<std::string>& set) const;
+  /// To the next sync point. Over several ranks a stop closes the record where a rank has gone that others wait for.
+  void advance();
   /// Chooses for a target that is open, and says so. @throws mpm::Error
   mpm::Scene aimed(mpm::Scene scene) const;
   /// A subject that fits the node, whose topics belong to its rigid bodies. @throws ParameterError, mpm::Error
@@ -144,6 +151,7 @@ class SimulatorNode {
   ros::NodeHandle node_;
   const NodeParameters parameters_;
   ExitWatchdog& watchdog_;
+  const std::shared_ptr<mpm::Communicator> ranks_;
   const HeightMaps heights_;                // with the overrides of the scene
   FramePoses poses_;                        // poses of the present run
   std::shared_ptr<const Subject> subject_;  // subject of the present run

@@ -15,7 +15,8 @@ struct StartFacts {
   std::uint64_t particles = 0;
   Pacing pacing = Pacing::real_time;
   double real_time_factor = 1.0;  ///< asked for
-  int threads = 1;
+  int ranks = 1;
+  int threads = 1;         ///< threads of each rank
   std::string name_space;  ///< absolute: "/mpm", or "/"
   double end = 0.0;        ///< [s]; 0: none
   bool paused = false;

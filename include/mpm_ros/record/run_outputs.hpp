@@ -75,7 +75,7 @@ class RunOutputs {
   void begin_again(const RunInfo& info);
   /// For checkpoints: averages since the last messages, and counts of commands.
   void serialise(mpm::StateArchive& archive);
-  /// A command that was applied just now.
+  /// A command that was applied just now. Over several ranks a sink that fails is told of by the next sync().
   void command(const AppliedCommand& command);
   void command(const JointOrder& order);
   /// A state that was set just now.

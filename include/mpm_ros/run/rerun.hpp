@@ -33,6 +33,10 @@ struct Rerun {
 /// `resumed`: it is run again from a checkpoint, and need not begin at the run's start.
 /// @throws BagError when it cannot be read, tells no scene, or does not begin at the run's start
 Rerun read_rerun(const std::string& bag, bool resumed = false);
+/// That of the first rank, on all. Collective; `ranks`: null for a process that is alone.
+Rerun rerun_of_first(mpm::Communicator* ranks, Rerun own);
+/// Number of processes that computed the run.
+int recorded_ranks(const RunInfo& info);
 
 /// Check that a run that is made again is the recorded one, to the bit.
 class RerunCheck {

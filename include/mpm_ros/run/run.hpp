@@ -34,7 +34,7 @@ struct RunOptions {
   std::function<bool()> stop;  ///< as mpm::SimulationOptions has it
   std::function<void(const mpm::Settling&)> settling;
   /// That compute the run together; null: this process alone. Each has a Run; the first one has all bags and sinks, and
-  /// every function of them all is called on all of them.
+  /// every function of them all is called on all of them. Where the first leads (led_run.hpp) it calls those of others.
   std::shared_ptr<mpm::Communicator> ranks;
   mpm::TimeProfile* profile = nullptr;  ///< as mpm::SimulationOptions has it; with what the run and its outputs take
 };
@@ -45,35 +45,39 @@ class Run {
   /// @throws mpm::Error for what cannot be simulated, or resumed; BagError
   Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live);
 
+  virtual ~Run() = default;
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
   /// One more sink beside the bag, before begin(); it must outlive the run.
   void add(MessageSink& sink) { outputs_.add(sink); }
   /// Writes static content and the state at time zero, or of the checkpoint.
-  void begin();
+  virtual void begin();
   /// Saves a checkpoint of the present sync point. `more`: what the caller keeps beside. With a `failure`: of the state
   /// that it left, which can be looked at but not resumed. @throws mpm::CheckpointError, also when the run was cut
   /// short
-  mpm::CheckpointAbout save(const std::string& path, const mpm::SerialiseMore& more = {},
-                            const std::string& failure = {});
+  virtual mpm::CheckpointAbout save(const std::string& path, const mpm::SerialiseMore& more = {},
+                                    const std::string& failure = {});
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
-  void apply(const AppliedCommand& command);
+  virtual void apply(const AppliedCommand& command);
   /// The same of a command to joints; `again`: one that was recorded as it was applied.
   void apply(const JointOrder& order, bool again = false);
   /// Sets the state of a body or a robot at the present sync point, and writes it. @throws mpm::RigidError; then
   /// nothing is changed.
-  void set_state(const mpm::StateSet& state);
+  virtual void set_state(const mpm::StateSet& state);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
   /// @throws mpm::StoppedError; finish() then ends the record with the sync point before. `late`: as in
   /// mpm::Simulation::advance().
-  void advance(std::chrono::steady_clock::duration late = {});
+  virtual void advance(std::chrono::steady_clock::duration late = {});
   /// Returns what should be known of the run since the last call, a line each: a rigid body that has left the grid, a
   /// crack's tip that has lost its J or grows no more, forces that time.budget makes worse.
   std::vector<std::string> take_warnings();
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
   /// Writes the last state, and closes the bag. Nothing when done before. @throws BagError
-  void finish();
+  virtual void finish();
   /// The same for the state that a PhysicsError left behind; the last solver state says why, in one line.
-  void fail(const std::string& reason);
+  virtual void fail(const std::string& reason);
   /// Commands that were late, refused and dropped so far, for the solver states.
   void count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped) {
     outputs_.count_commands(late, refused, dropped);
@@ -88,6 +92,10 @@ class Run {
   /// [ns]; 0: it runs until it is stopped
   std::int64_t end() const { return end_; }
   bool closed() const { return closed_; }
+  /// One of several ranks has failed alone: they can do nothing together any more.
+  virtual bool parted() const { return false; }
+  /// Closes the bag as it is, on this rank alone. Nothing when closed before. @throws BagError
+  void close_record();
   /// It was stopped between two sync points: its state is of neither, and is not to be saved or told of.
   bool cut_short() const { return cut_short_; }
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }

@@ -13,8 +13,7 @@
 
 namespace mpm_ros {
 
-/// Options of this rank: on others than the first there is nothing to write. @throws mpm::SceneError for
-/// what several ranks cannot do
+/// Options of this rank: on others than the first there is nothing to write.
 RunSceneOptions own_part(const RunSceneOptions& options);
 /// @throws mpm::SceneError on all ranks if one has read another scene than the first, or computes otherwise
 void check_alike(const RunSceneOptions& options, const mpm::Scene& scene);

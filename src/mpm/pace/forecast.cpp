@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <utility>
+
+#include "mpm/ranks/of_all.hpp"
 
 namespace mpm::pace {
 
@@ -11,15 +14,26 @@ namespace {
 
 constexpr int kUsualSweeps = 30;  ///< sweeps of an implicit step in the mean of blade_in_soil and wheel_in_sand
 
+/// A timer that comes to the same on all ranks.
+StepTimer make_timer(double budget, const std::function<bool()>& stop, Communicator* ranks) {
+  if (ranks == nullptr) return StepTimer(budget, stop);
+  const auto clock = [ranks] {
+    return largest_of_all(ranks, ranks->first() ? steady_seconds() : -std::numeric_limits<double>::infinity());
+  };
+  return StepTimer(
+      budget, [ranks, stop] { return ranks->any(stop && stop()); }, clock);
+}
+
 }  // namespace
 
 std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, std::optional<Isa> isa, double budget,
-                                  const std::function<bool()>& stop) {
-  StepTimer timer(budget, stop);
+                                  const std::function<bool()>& stop, Communicator* ranks) {
+  StepTimer timer = make_timer(budget, stop, ranks);
   SimulationOptions options;
   options.threads = threads;
   options.isa = isa;
   options.settle = false;
+  if (ranks != nullptr) options.ranks = {ranks, [](Communicator*) {}};  // whose they are outlives the copy
   options.stop = [&timer] { return timer.after_step(); };
   options.interrupt = [&timer] { return timer.over_budget(); };
   // Soil that has not settled falls in its first implicit steps, which takes more sweeps than are usual.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -17,10 +16,11 @@
 #include "mpm/advice/target_record.hpp"
 #include "mpm/advice/tool_motion.hpp"
 #include "mpm/pace/forecast.hpp"
-#include "mpm/pace/kept_costs.hpp"
 #include "mpm/pace/target.hpp"
+#include "mpm/simulation/rank_failure.hpp"
 #include "mpm_ros/aim/judged_tools.hpp"
 #include "mpm_ros/aim/scene_rehearsal.hpp"
+#include "mpm_ros/aim/timing.hpp"
 
 namespace mpm_ros {
 
@@ -49,44 +49,12 @@ std::string repeat_text(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Costs of steps on this machine, found or timed.
-class Timing {
- public:
-  Timing(int threads, mpm::Isa isa, const std::function<bool()>& stop)
-      : costs_(mpm::pace::kept_costs_path()), threads_(threads), isa_(isa), stop_(stop) {}
-
-  /// Nothing where the scene cannot be run, or not one step was made.
-  std::optional<Forecast> of(const mpm::Scene& scene, double budget) {
-    const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), isa_, threads_);
-    const std::int64_t now = mpm::pace::wall_time();
-    if (const auto kept = costs_.find(key, now))
-      return Forecast{kept->cost, kept->particles, kept->threads, scene.definition.time.end, false, false};
-    try {
-      const auto timed = mpm::pace::time_copy(mpm::build(scene, nullptr, stop_), threads_, isa_, budget, stop_);
-      if (timed) costs_.keep(key, {timed->cost, timed->threads, timed->particles, now});
-      return timed;
-    } catch (const mpm::StoppedError&) {
-      throw;
-    } catch (const mpm::Error&) {
-      return std::nullopt;
-    } catch (const std::bad_alloc&) {
-      return std::nullopt;
-    }
-  }
-
- private:
-  const mpm::pace::KeptCosts costs_;
-  const int threads_;
-  const mpm::Isa isa_;
-  const std::function<bool()>& stop_;
-};
-
 /// The choice of one scene.
 class Chooser {
  public:
   /// @param before lines that are set in the scene already
   Chooser(const mpm::Scene& scene, std::vector<std::string> before, int threads, mpm::Isa isa,
-          const std::function<bool()>& stop)
+          const std::function<bool()>& stop, mpm::Communicator* ranks)
       : scene_(scene),
         before_(std::move(before)),
         target_(*scene.target),
@@ -96,7 +64,7 @@ class Chooser {
         fitting_(mpm::fitting_cells(scene)),
         isa_(isa),
         stop_(stop),
-        timing_(threads, isa, stop) {}
+        timing_(threads, isa, stop, ranks) {}
 
   Aim aim() {
     calibrate();
@@ -352,7 +320,7 @@ class Chooser {
 
 }  // namespace
 
-Aim aim(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop) {
+Aim aim(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop, mpm::Communicator* ranks) {
   if (!scene.target) return {std::move(scene), {}, {}, {}};
   if (scene.target->chosen) {
     const Target& target = *scene.target;
@@ -366,7 +334,40 @@ Aim aim(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>
     half = mpm::half_lines(scene, *scene.target->symmetric);
     scene = mpm::with_chosen(scene, half, 1.0, 1.0);
   }
-  return Chooser(scene, std::move(half), threads, isa, stop).aim();
+  return Chooser(scene, std::move(half), threads, isa, stop, ranks).aim();
+}
+
+Aim aim_together(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop,
+                 mpm::Communicator* ranks) {
+  if (ranks == nullptr || !scene.target || scene.target->chosen) return aim(std::move(scene), threads, isa, stop);
+  if (!ranks->first()) {
+    for (;;) {
+      const Order order = hear(*ranks);
+      const std::string what = order.at("do");
+      if (what == "time") {
+        time_as_told(*ranks, order);
+        continue;
+      }
+      if (what == "stop") throw mpm::StoppedError(order.at("why").get<std::string>());
+      if (what == "fail") throw mpm::SceneError(order.at("why").get<std::string>());
+      Aim aim;
+      aim.scene = mpm::parse_scene(order.at("scene"), order.at("path"));
+      return aim;
+    }
+  }
+  try {
+    Aim chosen = aim(std::move(scene), threads, isa, stop, ranks);
+    tell(*ranks, {{"do", "run"}, {"scene", chosen.scene.text}, {"path", chosen.scene.path}});
+    return chosen;
+  } catch (const mpm::RankFailure&) {
+    throw;  // the others cannot be told
+  } catch (const mpm::StoppedError& error) {
+    tell(*ranks, {{"do", "stop"}, {"why", error.what()}});
+    throw;
+  } catch (const mpm::Error& error) {
+    tell(*ranks, {{"do", "fail"}, {"why", error.what()}});
+    throw;
+  }
 }
 
 }  // namespace mpm_ros

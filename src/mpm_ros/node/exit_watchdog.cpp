@@ -45,7 +45,7 @@ void ExitWatchdog::ends(int exit_code) {
 }
 
 void ExitWatchdog::watch() {
-  constexpr std::chrono::milliseconds kLook{50}, kStopPatience{900};
+  constexpr std::chrono::milliseconds kLook{50}, kStopPatience = kPatience;
   std::chrono::milliseconds asked{0}, stopped{0}, ended{0};
   for (;; std::this_thread::sleep_for(kLook)) {
     const bool stop = stop_requested();
@@ -58,10 +58,10 @@ void ExitWatchdog::watch() {
       std::fprintf(stderr, "stopped before there was a run%s%s\n", why.empty() ? "" : ": ", why.c_str());
       leave(why.empty() ? exit_code_.load() : 1);
     }
-    if (asked <= kStopPatience) continue;
+    if (!stop) continue;
     // The lock is kept: who works meanwhile waits at the end of its work for the end of the process.
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!close_) continue;
+    if (!close_ || asked <= close_after_) continue;
     try {
       leave(close_());
     } catch (const std::exception& error) {
@@ -71,8 +71,10 @@ void ExitWatchdog::watch() {
   }
 }
 
-ExitWatchdog::Deaf::Deaf(ExitWatchdog& watchdog, std::function<int()> close) : watchdog_(watchdog) {
+ExitWatchdog::Deaf::Deaf(ExitWatchdog& watchdog, std::function<int()> close, std::chrono::milliseconds patience)
+    : watchdog_(watchdog) {
   const std::lock_guard<std::mutex> lock(watchdog_.mutex_);
+  watchdog_.close_after_ = patience;
   watchdog_.close_ = std::move(close);
 }
 

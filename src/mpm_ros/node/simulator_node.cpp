@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "mpm/advice/target_record.hpp"
+#include "mpm/simulation/rank_failure.hpp"
 #include "mpm_ros/aim/aim.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/neighbours.hpp"
 #include "mpm_ros/node/node_run.hpp"
+#include "mpm_ros/run/led_run.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
@@ -26,6 +28,9 @@ namespace {
 constexpr std::chrono::milliseconds kGlance{50};
 /// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;
+/// After a stop, in which a sync period over several ranks is to end: a launcher of MPI kills what has not ended in 1
+/// s.
+constexpr std::chrono::milliseconds kRanksPatience{600};
 /// At the end: for messages and answers on their way out.
 constexpr std::chrono::milliseconds kLinger{300};
 
@@ -33,7 +38,9 @@ constexpr std::chrono::milliseconds kLinger{300};
 
 class SimulatorNode::Building {
  public:
-  explicit Building(SimulatorNode& node) : node_(node), deaf_(node.watchdog_, [&node] { return stop(node); }) {
+  explicit Building(SimulatorNode& node) : node_(node) {
+    // Several ranks close their record together.
+    if (!node.ranks_) deaf_.emplace(node.watchdog_, [&node] { return stop(node); });
     node_.mailbox_.set_busy(true);
   }
   ~Building() { node_.mailbox_.set_busy(false); }
@@ -51,13 +58,15 @@ class SimulatorNode::Building {
   }
 
   SimulatorNode& node_;
-  const ExitWatchdog::Deaf deaf_;
+  std::optional<ExitWatchdog::Deaf> deaf_;
 };
 
-SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, ExitWatchdog& watchdog)
+SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, ExitWatchdog& watchdog,
+                             std::shared_ptr<mpm::Communicator> ranks)
     : node_(std::move(node)),
       parameters_(parameters),
       watchdog_(watchdog),
+      ranks_(std::move(ranks)),
       heights_(wait_for_height_maps(node_, parameters.scene, parameters.set, parameters.world_frame)),
       poses_(node_, parameters, heights_.set),
       subject_(std::make_shared<const Subject>(
@@ -65,7 +74,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
       commands_(node_, subject_->scene, parameters_, health_),
       paused_(parameters.start_paused) {
-  RunOptions first_run = run_options(subject_->scene, parameters_, 1, node_.getNamespace());
+  RunOptions first_run = options_of_run(subject_->scene, {});
   check(parameters_, first_run, subject_->scene);
   ros::NodeHandle services(node_), urgent(node_);
   services.setCallbackQueue(&service_callbacks_);
@@ -77,8 +86,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   // Before the run has a time to keep; the copy that is timed is freed before the run is built.
   first_run.stop = stop_overdue;
   const bool paced = parameters_.pacing == Pacing::real_time;
-  const std::optional<ExpectedPace> expected =
-      expected_pace(subject_->scene, first_run, paced ? parameters_.real_time_factor : 1.0, paced);
+  std::optional<ExpectedPace> expected;  // by what steps cost in one process
+  if (!ranks_) expected = expected_pace(subject_->scene, first_run, paced ? parameters_.real_time_factor : 1.0, paced);
   start_run(subject_,
             parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
             parameters_.resume);
@@ -142,7 +151,8 @@ mpm::Scene SimulatorNode::load(const std::vector<std::string>& set) const {
 
 mpm::Scene SimulatorNode::aimed(mpm::Scene scene) const {
   if (!scene.target) return scene;
-  const Aim aim = mpm_ros::aim(std::move(scene), parameters_.threads, mpm::choose_isa(parameters_.isa), stop_overdue);
+  const Aim aim =
+      mpm_ros::aim(std::move(scene), parameters_.threads, mpm::choose_isa(parameters_.isa), stop_overdue, ranks_.get());
   for (const std::string& line : aim.news) ROS_INFO_STREAM(line);
   for (const std::string& warning : aim.warnings) ROS_WARN_STREAM(warning);
   std::fflush(stdout);
@@ -195,9 +205,15 @@ std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::checked(Subject loa
   return subject;
 }
 
+RunOptions SimulatorNode::options_of_run(const mpm::Scene& scene, const std::vector<std::string>& set) const {
+  RunOptions options = run_options(scene, parameters_, runs_ + 1, node_.getNamespace(), set);
+  options.ranks = ranks_;
+  return options;
+}
+
 void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps,
                               const std::string& resume) {
-  RunOptions options = run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace(), subject->set);
+  RunOptions options = options_of_run(subject->scene, subject->set);
   options.stop = stop_overdue;
   options.settling = settling_news([](const std::string& line) {
     ROS_INFO_STREAM(line);
@@ -217,7 +233,7 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   std::unique_ptr<Run> run;
   {
     const Building building(*this);
-    run = std::make_unique<Run>(subject->scene, options, stamps, publishers_.get());
+    run = make_run(subject->scene, options, stamps, publishers_.get());
   }
   if (run_) end_run();
   run_ = std::move(run);
@@ -262,6 +278,7 @@ int SimulatorNode::spin() {
   std::string ignored;  // nothing is asked for that could be refused
   while (!ends()) {
     const Phase now = phase();
+    if (run_->parted()) break;
     if ((now == Phase::failed || now == Phase::ended) && !parameters_.keep_alive) {
       if (now == Phase::ended) {
         ROS_INFO("the run has reached its end at %g s, and the node ends with it", subject_->scene.definition.time.end);
@@ -283,6 +300,7 @@ int SimulatorNode::spin() {
   end_run();
   mailbox_.close();
   std::this_thread::sleep_for(kLinger);
+  if (run_->parted()) throw mpm::RankFailure(failure_);
   if (!used_up().empty()) ROS_FATAL_STREAM(used_up());
   return exit_code();
 }
@@ -300,6 +318,21 @@ bool SimulatorNode::hand_over(const std::function<void()>& work, std::string& me
   return false;
 }
 
+void SimulatorNode::advance() {
+  std::optional<ExitWatchdog::Deaf> deaf;
+  if (ranks_) {
+    const auto close = [this] {
+      mailbox_.close();
+      ROS_WARN_STREAM("stopped within a sync period; the record ends with the sync point before");
+      run_->close_record();
+      return exit_code();
+    };
+    deaf.emplace(watchdog_, close, kRanksPatience);
+  }
+  const bool paced = parameters_.pacing == Pacing::real_time && phase() == Phase::running;
+  run_->advance(paced ? pacer_->late(Pacer::Clock::now()) : Pacer::Clock::duration::zero());
+}
+
 bool SimulatorNode::sync_period(const StepCommands& extra, std::string& refusal) {
   try {
     const BodyCommands::Outcome outcome = commands_.apply_due(*run_, extra);
@@ -307,8 +340,7 @@ bool SimulatorNode::sync_period(const StepCommands& extra, std::string& refusal)
     if (!outcome.silence.empty()) fail(outcome.silence, 3);
     if (!failure_.empty() || !refusal.empty()) return false;
     count_commands();
-    const bool paced = parameters_.pacing == Pacing::real_time && phase() == Phase::running;
-    run_->advance(paced ? pacer_->late(Pacer::Clock::now()) : Pacer::Clock::duration::zero());
+    advance();
     for (const std::string& warning : run_->take_warnings()) ROS_WARN_STREAM(warning);
     publish_clock(run_->ended());
     if (run_->ended()) end_run();
@@ -318,6 +350,8 @@ bool SimulatorNode::sync_period(const StepCommands& extra, std::string& refusal)
   } catch (const mpm::StoppedError& error) {
     ROS_WARN_STREAM(error.what() << "; the record ends at the sync point before");
   } catch (const mpm::PhysicsError& error) {
+    fail(error.what(), 3);
+  } catch (const mpm::RankFailure& error) {
     fail(error.what(), 3);
   } catch (const mpm::Error& error) {
     fail(error.what(), 2);
@@ -344,6 +378,7 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
     ROS_FATAL_STREAM(error.what());
     bag_lost_ = true;
   }
+  if (run_->parted()) return;
   leave_failed_state();
   if (parameters_.keep_alive) ROS_WARN_STREAM("the node waits for reset, reset_with or load_checkpoint");
   report();

@@ -30,6 +30,7 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
   facts.particles = run_->simulation().particles();
   facts.pacing = parameters_.pacing;
   facts.real_time_factor = parameters_.real_time_factor;
+  facts.ranks = ranks_ ? ranks_->size() : 1;
   facts.threads = run_->simulation().threads();
   facts.name_space = node_.getNamespace();
   facts.end = scene.definition.time.end;

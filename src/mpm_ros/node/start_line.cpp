@@ -35,8 +35,9 @@ std::string start_line(const StartFacts& facts) {
       next.push_back(fmt::format("'{}' waits for the tf frame '{}'", body, frame));
   }
   if (facts.clock) next.emplace_back("publishes /clock");
-  return fmt::format("{}: {} particles, {}, {} thread{}, in {}; {}", facts.scene, facts.particles, pacing_text(facts),
-                     facts.threads, facts.threads == 1 ? "" : "s", facts.name_space, fmt::join(next, "; "));
+  const std::string ranks = facts.ranks == 1 ? "" : fmt::format("{} ranks of ", facts.ranks);
+  return fmt::format("{}: {} particles, {}, {}{} thread{}, in {}; {}", facts.scene, facts.particles, pacing_text(facts),
+                     ranks, facts.threads, facts.threads == 1 ? "" : "s", facts.name_space, fmt::join(next, "; "));
 }
 
 }  // namespace mpm_ros

@@ -156,19 +156,16 @@ void RunOutputs::command(const AppliedCommand& command) {
   ++applied_;
   sinks_.put(topics::kCommands,
              to_message(command, simulation_.rigid_body(command.body).name(), options_.world_frame, stamps_));
-  sinks_.end_writing();
 }
 
 void RunOutputs::command(const JointOrder& order) {
   ++applied_;
   const std::string& robot = simulation_.definition().robots.at(static_cast<std::size_t>(order.robot)).name;
   sinks_.put(topics::kJointCommands, to_message(order, robot, stamps_));
-  sinks_.end_writing();
 }
 
 void RunOutputs::state_set(const mpm::StateSet& state) {
   sinks_.put(topics::kStatesSet, to_message(state, simulation_.time(), options_.world_frame, stamps_));
-  sinks_.end_writing();
 }
 
 void RunOutputs::sync(bool last, double real_time_factor) {

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "mpm_ros/lead/order.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 
@@ -61,6 +63,43 @@ Rerun read_rerun(const std::string& path, bool resumed) {
   }
   if (rerun.end == 0 && !rerun.failed) throw BagError(path + ": the recording does not reach beyond the run's start");
   return rerun;
+}
+
+Rerun rerun_of_first(mpm::Communicator* ranks, Rerun own) {
+  if (ranks == nullptr) return own;
+  if (ranks->first()) {
+    // Without steps that a budget cut: they are implicit, which one process makes.
+    tell(*ranks, {{"bag", own.bag},
+                  {"info", packed(own.info)},
+                  {"commands", packed(own.commands)},
+                  {"joint_commands", packed(own.joint_commands)},
+                  {"states_set", packed(own.states_set)},
+                  {"end", own.end},
+                  {"state_hash", own.state_hash},
+                  {"hashed_at", own.hashed_at},
+                  {"failed", own.failed}});
+    return own;
+  }
+  const Order told = hear(*ranks);
+  own.bag = told.at("bag");
+  own.info = unpacked<RunInfo>(told.at("info"));
+  own.commands = unpacked<std::vector<mpm_ros::Command>>(told.at("commands"));
+  own.joint_commands = unpacked<std::vector<mpm_ros::JointCommand>>(told.at("joint_commands"));
+  own.states_set = unpacked<std::vector<mpm_ros::StateSet>>(told.at("states_set"));
+  own.end = told.at("end");
+  own.state_hash = told.at("state_hash");
+  own.hashed_at = told.at("hashed_at");
+  own.failed = told.at("failed");
+  return own;
+}
+
+int recorded_ranks(const RunInfo& info) {
+  try {
+    const YAML::Node ranks = YAML::Load(info.parameters)["ranks"];
+    return ranks ? ranks.as<int>() : 1;
+  } catch (const YAML::Exception&) {
+    return 1;
+  }
 }
 
 void RerunCheck::look(const mpm::Simulation& simulation) {

@@ -25,7 +25,8 @@ constexpr std::int64_t kJumpRemembered = 100'000'000;  ///< [ns] after a jump: a
 
 Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live) try
     : scene_(scene),
-      parameters_(options.parameters),
+      parameters_(options.ranks ? fmt::format("{}\nranks: {}\n", options.parameters, options.ranks->size())
+                                : options.parameters),
       threads_asked_(options.threads),
       stamps_(stamps),
       profile_(options.profile),
@@ -264,6 +265,12 @@ std::string Run::bag() const {
 void Run::finish() { close({}); }
 
 void Run::fail(const std::string& reason) { close(reason); }
+
+void Run::close_record() {
+  if (closed_) return;
+  closed_ = true;
+  if (recorder_) recorder_->close();
+}
 
 void Run::close(const std::string& failure) {
   if (closed_) return;

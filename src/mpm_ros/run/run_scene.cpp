@@ -58,7 +58,8 @@ class OfflineRun {
   OfflineRun(const RunSceneOptions& options, std::ostream& err)
       : options_(own_part(options)),
         rerun_(read(options)),
-        aim_(aim(scene_to_run(options_, rerun_), options.threads, instruction_set(options), stop_overdue)),
+        aim_(aim_together(scene_to_run(options_, rerun_), options.threads, instruction_set(options), stop_overdue,
+                          options.ranks.get())),
         scene_(aim_.scene),
         checkpoints_(options, scene_.definition.time.sync) {
     if (!(scene_.definition.time.end > 0.0)) {
@@ -221,7 +222,11 @@ class OfflineRun {
       throw mpm::SceneError(
           fmt::format("--from-bag {}: the bag holds its scene; leave out {}", options.from_bag, options.scene));
     }
-    return read_rerun(options.from_bag, !options.resume.empty());
+    Rerun rerun;
+    mpm::agree<BagError>(options.ranks.get(), [&] {
+      if (mpm::is_first(options.ranks.get())) rerun = read_rerun(options.from_bag, !options.resume.empty());
+    });
+    return rerun_of_first(options.ranks.get(), std::move(rerun));
   }
 
   /// Instruction set and commands of the recording; what makes it another run is noted.
@@ -233,10 +238,12 @@ class OfflineRun {
     notes_.push_back(fmt::format(
         "{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s", info.scene,
         info.version, info.isa, commands_.size(), commands_.size() == 1 ? "" : "s", mpm::seconds_of(rerun_->end)));
-    for (const std::string& change : changed_files(info.files, info.scene_path)) {
-      notes_.push_back("warning: " + change);
-      check_->differs("a file of the scene has changed");
-    }
+    const std::vector<std::string> changes = changed_files(info.files, info.scene_path);
+    for (const std::string& change : changes) notes_.push_back("warning: " + change);
+    if (mpm::any_of_all(options_.ranks.get(), !changes.empty())) check_->differs("a file of the scene has changed");
+    const int ranks = options_.ranks ? options_.ranks->size() : 1;
+    if (const int recorded = recorded_ranks(info); recorded != ranks)
+      check_->differs(fmt::format("processes add up in another order: {} in place of {}", ranks, recorded));
     if (!options_.set.empty()) check_->differs("--set changes the scene");
     if (!options_.end.empty()) check_->differs("--end changes the end");
     const std::optional<mpm::Isa> recorded = mpm::find_isa(info.isa);

@@ -19,8 +19,6 @@
 namespace mpm_ros {
 namespace {
 
-constexpr const char* kAsOne = "; start the run as one process, or leave that out";
-
 /// Makes a file that is not there yet, and takes it away again. Why that cannot be done; empty if it can.
 std::string problem_of_new_file(const std::string& path) {
   std::ofstream file;
@@ -44,9 +42,6 @@ mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
 RunSceneOptions own_part(const RunSceneOptions& options) {
   RunSceneOptions own = options;
   if (!options.ranks) return own;
-  if (!options.from_bag.empty()) {
-    throw mpm::SceneError(fmt::format("--from-bag: does not work over several ranks yet{}", kAsOne));
-  }
   if (!options.ranks->first()) {
     for (std::string* written : {&own.bag, &own.csv, &own.vtk, &own.summary, &own.out}) written->clear();
   }
@@ -84,9 +79,6 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
   mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
-  if (options.ranks && scene.target && !scene.target->chosen) {
-    throw mpm::SceneError(fmt::format("{}: target: ranks would choose each for itself{}", scene.path, kAsOne));
-  }
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
   double end = 0.0;

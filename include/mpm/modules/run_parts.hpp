@@ -27,6 +27,7 @@ namespace mpm {
 class DampingControl;
 class FollowingBed;
 class HeatSink;
+class RestPartner;
 class Sleep;
 class ToolSides;
 class TransportedField;
@@ -65,6 +66,7 @@ struct RunParts {
   HeatSink* heat = nullptr;
   TransportedField* temperature = nullptr;
   Sleep* sleep = nullptr;
+  std::vector<RestPartner*> rest_partners = {};  ///< modules that act on material at rest, which sleep asks
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();

@@ -53,6 +53,7 @@ struct SleepingBlock {
   BlockName name;
   double rate = 0.0;                                  ///< by which the fastest wave would cross a cell [1/s]
   double mass = 0.0;                                  ///< mass of its particles [kg]
+  double since = 0.0;                                 ///< time at which its first particles fell asleep [s]
   BlockForces forces;                                 ///< on the nodes of its tile
   std::vector<std::vector<std::uint32_t>> particles;  ///< places of those of each set
 };
@@ -73,6 +74,7 @@ class SleepingBlocks {
     BlockName name;
     int owner = 0;
     double rate = 0.0;
+    double since = 0.0;  ///< as in SleepingBlock
     std::unique_ptr<BlockForces> forces;
   };
   /// Puts them to sleep, in ascending order of owners; particles have to be sorted. After it they are not any more.

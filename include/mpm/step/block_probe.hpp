@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "mpm/grid/grid_layout.hpp"
+
 namespace mpm {
 
 /// Forces that the particles of a block give to the nodes of its tile: 8 nodes along each axis, the last axis fastest,
@@ -22,6 +24,25 @@ struct BlockForces {
     }
   }
 };
+
+/// visit(number in the tile, block of the 3^dim around, node in it) for the nodes of a block's tile.
+template <class Visit>
+void each_tile_node(int dim, Visit&& visit) {
+  int tile_nodes = 1;
+  for (int k = 0; k < dim; ++k) tile_nodes *= BlockForces::kEdge;
+  for (int t = 0; t < tile_nodes; ++t) {
+    int rest = t, block = 0, node = 0, block_stride = 1, node_stride = 1;
+    for (int k = dim - 1; k >= 0; --k) {
+      const int at = rest % BlockForces::kEdge - BlockForces::kMargin + kBlockEdge;  // from the first block's first
+      block += at / kBlockEdge * block_stride;
+      node += at % kBlockEdge * node_stride;
+      rest /= BlockForces::kEdge;
+      block_stride *= 3;
+      node_stride *= kBlockEdge;
+    }
+    visit(t, block, node);
+  }
+}
 
 class BlockProbe {
  public:

@@ -56,24 +56,13 @@ class KernelProbe final : public BlockProbe {
  private:
   // The tile's nodes, of the blocks around.
   void take_tile(BlockForces& result) const {
-    int tile_nodes = 1;
-    for (int k = 0; k < dim_; ++k) tile_nodes *= BlockForces::kEdge;
-    for (int t = 0; t < tile_nodes; ++t) {
-      int rest = t, block = 0, node = 0, block_stride = 1, node_stride = 1;
-      for (int k = dim_ - 1; k >= 0; --k) {
-        const int at = rest % BlockForces::kEdge - BlockForces::kMargin + kBlockEdge;  // from the first block's first
-        block += at / kBlockEdge * block_stride;
-        node += at % kBlockEdge * node_stride;
-        rest /= BlockForces::kEdge;
-        block_stride *= 3;
-        node_stride *= kBlockEdge;
-      }
+    each_tile_node(dim_, [&](int t, int block, int node) {
       result.mass[t] = static_cast<float>(mass_[static_cast<std::size_t>(block) * nodes_ + node]);
       for (int k = 0; k < dim_; ++k) {
         const std::size_t from = (static_cast<std::size_t>(block) * dim_ + k) * nodes_ + node;
         result.force[k][t] = static_cast<float>(force_[from]);
       }
-    }
+    });
   }
 
   mpm_kernel::KernelTable<T> kernels_;

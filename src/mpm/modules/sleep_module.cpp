@@ -13,7 +13,8 @@ void add_sleep(RunParts& parts) {
                     parts.definition.gravity,
                     parts.threads,
                     parts.definition.method.update == UpdateScheme::implicit,
-                    parts.halo};
+                    parts.halo,
+                    parts.rest_partners};
   parts.sleep = &parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
 }
 

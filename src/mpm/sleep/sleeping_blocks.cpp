@@ -101,6 +101,7 @@ TakenMotion SleepingBlocks::put_to_sleep(const std::vector<Sleeper>& sleepers) {
   std::vector<SleepingBlock*> blocks;
   for (const Sleeper& sleeper : sleepers) {
     SleepingBlock& block = this->block(sleeper.name);
+    if (block.mass == 0.0) block.since = sleeper.since;
     block.rate = std::max(block.rate, sleeper.rate);
     rate_ = std::max(rate_, sleeper.rate);
     block.forces.add(*sleeper.forces);  // material that came to rest where some was asleep adds to it
@@ -249,12 +250,13 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
   std::sort(blocks.begin(), blocks.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
   std::vector<int> fields;
   std::vector<std::uint64_t> keys;
-  std::vector<double> rates, masses;
+  std::vector<double> rates, masses, since;
   for (const SleepingBlock* block : blocks) {
     fields.push_back(block->name.field);
     keys.push_back(block->name.key);
     rates.push_back(block->rate);
     masses.push_back(block->mass);
+    since.push_back(block->since);
   }
   const StateArchive::Group group(archive, "blocks");
   {
@@ -263,6 +265,7 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
     archive.list("key", keys);
     archive.list("rate", rates);
     archive.list("mass", masses);
+    archive.list("since", since);
   }
   if (archive.reading()) {
     by_name_.clear();
@@ -270,6 +273,7 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
     for (std::size_t b = 0; b < keys.size(); ++b) {
       SleepingBlock& read = block({fields[b], keys[b]});
       read.rate = std::max(read.rate, rates[b]);
+      read.since = since[b];
       if (!archive.merging()) read.mass = masses[b];
     }
   }

@@ -74,7 +74,7 @@ TEST(SleepMeets, AFootingLoadedAfterRest) {
   run_until(with, 0.8);
   run_until(without, 0.8);
   const double settled = high - mean_within(without, "z", 2.9, 3.5);
-  EXPECT_GT(settled, 3e-4);  // of the order of q b / E = 2 mm at the top
+  EXPECT_GT(settled, 3e-4);  // order of q b / E = 2 mm
   EXPECT_NEAR(high - mean_within(with, "z", 2.9, 3.5), settled, 0.05 * settled);
   EXPECT_GT(asleep(with), 0.3);
   expect_audit_closes(with);
@@ -175,7 +175,7 @@ TEST(SleepMeets, ASteadyFlowOfHeatGoesOn) {
   const std::vector<double> x = field(run, "x"), warm = field(run, "temperature");
   double most = 0.0;
   for (std::size_t p = 0; p < x.size(); ++p) most = std::max(most, std::abs(warm[p] - (400.0 - 100.0 * x[p] / 3.2)));
-  EXPECT_LT(most, 0.1);  // what would wake a block
+  EXPECT_LT(most, 0.1);  // change that would wake a block
   expect_balance(run, "temperature");
 }
 

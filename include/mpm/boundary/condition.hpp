@@ -123,7 +123,7 @@ class VelocityConditions final : public FieldStage, public RestPartner {
 
   /// The velocity that a condition gives a node by itself [m/s]. @throws ConditionError
   double velocity_of(const Condition& condition, double time, const Vec3& position) const;
-  /// Whether a condition moves a node of a block's tile at one of these times.
+  /// True if a condition moves a node of a block's tile at one of these times.
   bool moves_tile(const Condition& condition, const RestingBlock& block, const RestTimes& times) const;
 
   int field_;

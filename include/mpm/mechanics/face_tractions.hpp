@@ -98,9 +98,10 @@ class FaceTractions : public Stage, public RestPartner {
   bool any_chooses_ = false;              ///< some particle chooses its fields, and changes its place in every step
   std::vector<NodalLoad> loads_;          ///< loads of this step
   Halo* halo_;
-  NodalField nodal_;                      ///< nodal values of a field's loads, where there is a halo [N]
-  double weight_;                         ///< of a unit of mass [N/kg]
-  std::vector<std::vector<char>> bears_;  ///< of each term whose value changes with time, by id from the set's first
+  NodalField nodal_;  ///< nodal values of a field's loads, where there is a halo [N]
+  double weight_;     ///< weight of a unit of mass [N/kg]
+  std::vector<std::vector<char>>
+      bears_;  ///< marks of particles by id from the set's first, for each term that changes with time
   ImpulseAccount account_;
   double work_ = 0.0;
 };

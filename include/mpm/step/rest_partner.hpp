@@ -19,7 +19,7 @@ struct RestingBlock {
   std::uint64_t key = 0;
   std::array<int, 3> block{};
   int owner = -1;       ///< number in its field, of a block whose particles are sorted; negative: it is asleep
-  int first_owner = 0;  ///< of its field, among those of all
+  int first_owner = 0;  ///< number of its field's first, among the owners of all
   const std::vector<std::vector<std::uint32_t>>* asleep = nullptr;  ///< places of its particles in each set, if asleep
 
   /// visit(set, particle)
@@ -41,7 +41,7 @@ struct RestTimes {
   double before = 0.0;  ///< it fell asleep; of one that is awake, it has been at rest since then at least [s]
   double now = 0.0;     ///< [s]
   double ahead = 0.0;   ///< nobody asks again before [s]
-  double part = 0.0;    ///< of a load and the block's weight, that a load may have changed by since `before`
+  double part = 0.0;    ///< part of itself and the block's weight by which a load may have changed since `before`
 };
 
 /// Adds to a block's forces those on the 3^dim blocks around it (ScalarTransfer::spread_of_block()), of as many

@@ -71,8 +71,8 @@ class ScalarTransfer {
   virtual void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
                               std::vector<NodalField>& to) = 0;
 
-  // What the particles of one block give, by the number of its owner in the field. `around` has the 3^dim blocks around
-  // it, itself in the middle, the last axis fastest (take_tile() in step/block_probe.hpp).
+  // Transfers of the particles of one block, by the number of its owner in the field. `around` has the 3^dim blocks
+  // around it, itself in the middle, the last axis fastest (take_tile() in step/block_probe.hpp).
 
   /// spread() of this block.
   virtual void spread_of_block(int field, int owner, const Given& of, Weight weight, NodalField& around) = 0;

@@ -86,13 +86,13 @@ class ContentAtRest {
 
   const GridLayout* layout_;
   double change_, rate_, after_;
-  int nodes_ = 1;                                             ///< of a tile
+  int nodes_ = 1;                                             ///< number of a tile's nodes
   std::array<std::vector<std::pair<int, int>>, 27> of_side_;  ///< for each block around a tile: number in it, and node
   std::unordered_map<Name, Tile, Hash> tiles_;
-  std::vector<std::vector<Shared>> shared_;    ///< of each field
-  std::vector<std::vector<Watched>> watched_;  ///< of each field, in the order of keys
+  std::vector<std::vector<Shared>> shared_;    ///< nodes of each field
+  std::vector<std::vector<Watched>> watched_;  ///< blocks of each field, in the order of keys
   std::vector<Watched> before_;
-  std::uint64_t generation_ = 0;  ///< of the blocks that shared_ is of
+  std::uint64_t generation_ = 0;  ///< generation of the blocks that shared_ is of
 };
 
 }  // namespace mpm

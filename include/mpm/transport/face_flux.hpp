@@ -39,7 +39,8 @@ class FaceFlux final : public NodalSource {
   const Fields& fields_;
   const std::vector<ParticleSet>& sets_;
   std::vector<FluxTerm> terms_;
-  std::vector<std::vector<char>> fed_;  ///< of each set, whether a flux acts on a particle, by id from the set's first
+  std::vector<std::vector<char>>
+      fed_;  ///< marks of the particles of each set that a flux acts on, by id from its first
   std::vector<ContentAccount> accounts_;
   std::vector<int> place_of_;
   Halo* halo_;

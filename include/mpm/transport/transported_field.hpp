@@ -115,7 +115,7 @@ class TransportedField {
   PaddedArray<double>& values(int set) { return parts_.sets[set].brought[place_[set]].values; }
   const PaddedArray<double>& values(int set) const { return parts_.sets[set].brought[place_[set]].values; }
 
-  // Where blocks sleep, as RestPartner has it.
+  // Functions for blocks that sleep, as RestPartner has them.
 
   /// Blocks may sleep, for the whole run. `asked`: change of the quantity that wakes a block; without it a thousandth
   /// of the range of the values that the scene gives. `after`: time of rest [s]. @throws TransportError if there is no
@@ -240,14 +240,14 @@ class TransportedField {
   bool gives_to_laws_ = false;
   std::uint32_t asked_ = 0;
 
-  // Where blocks sleep.
+  // Members for blocks that sleep.
   std::optional<ContentAtRest> rest_;
   std::vector<Box> changing_;      ///< bounds of regions whose values change with time
   std::vector<double> changes_;    ///< scratch: fastest change of each owner of a field
   NodalField around_;              ///< scratch: nodes of the blocks around one
   double updated_ = 0.0;           ///< end of the last update [s]
   std::uint64_t rests_since_ = 0;  ///< generation of the blocks for which values at rest were found
-  ContentAccount at_rest_;         ///< what flowed steadily from and to material asleep
+  ContentAccount at_rest_;         ///< content that flowed steadily from and to material asleep
 };
 
 /// "(1, 0, 2) m"

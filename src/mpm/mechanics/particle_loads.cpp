@@ -266,7 +266,7 @@ class ParticleLoads final : public ParticleLoadStage {
   Fields& fields_;
   std::vector<ParticleSet>& sets_;
   int threads_;
-  double weight_;         ///< of a unit of mass [N/kg]
+  double weight_;         ///< weight of a unit of mass [N/kg]
   bool changes_ = false;  ///< some load depends on time
   std::vector<Term> terms_;
   /// Acceleration of each set's particles by spread and axis [m/s^2].

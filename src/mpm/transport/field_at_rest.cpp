@@ -1,4 +1,4 @@
-// What a transported quantity does where blocks sleep (transport/content_at_rest.hpp).
+// A transported quantity where blocks sleep (transport/content_at_rest.hpp).
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -52,6 +52,7 @@ struct SleepParts {
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
   bool implicit = false;  ///< true if steps are implicit
+  bool averaged = false;  ///< true if volume changes are averaged over the grid
   Halo* halo = nullptr;   ///< null for one process
   /// Those who act on material at rest; they outlive it.
   std::vector<RestPartner*> partners = {};

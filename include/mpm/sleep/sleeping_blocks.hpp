@@ -66,8 +66,9 @@ struct TakenMotion {
 
 class SleepingBlocks {
  public:
-  /// `sets` outlive it.
-  SleepingBlocks(std::vector<ParticleSet>& sets, const GridLayout& layout) : sets_(sets), layout_(layout) {}
+  /// `sets` outlive it. `averaged`: volume changes are averaged over the grid.
+  SleepingBlocks(std::vector<ParticleSet>& sets, const GridLayout& layout, bool averaged)
+      : sets_(sets), layout_(layout), averaged_(averaged) {}
 
   /// A block that is to fall asleep: all particles of an owner (numbered through all fields).
   struct Sleeper {
@@ -156,6 +157,7 @@ class SleepingBlocks {
 
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
+  bool averaged_;
   ByName by_name_, whole_;
   std::vector<std::vector<Owned>> owned_;  ///< owners in each set, by place
   std::vector<int> first_;                 ///< for each set, the place of the first one asleep

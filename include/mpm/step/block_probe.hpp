@@ -16,10 +16,14 @@ struct BlockForces {
 
   std::array<float, kMostNodes> mass{};                  ///< [kg]
   std::array<std::array<float, kMostNodes>, 3> force{};  ///< internal, along the grid's axes [N]
+  /// Sum of m S times the particles' mean stress over the initial density, where volume changes are averaged over the
+  /// grid [J].
+  std::array<float, kMostNodes> stress{};
 
   void add(const BlockForces& other) {
     for (int t = 0; t < kMostNodes; ++t) {
       mass[t] += other.mass[t];
+      stress[t] += other.stress[t];
       for (int k = 0; k < 3; ++k) force[k][t] += other.force[k][t];
     }
   }
@@ -47,6 +51,9 @@ void each_tile_node(int dim, Visit&& visit) {
 class BlockProbe {
  public:
   virtual ~BlockProbe() = default;
+  /// To be called before forces of blocks are found: finds the means that their stresses take part in, where volume
+  /// changes are averaged over the grid.
+  virtual void find_means() {}
   /// Finds the forces of an owner of a velocity field (numbered in the field), in the present state. Particles have to
   /// be sorted.
   virtual void find_forces(int field, int owner, BlockForces& result) = 0;

@@ -167,11 +167,10 @@ constexpr const char* kExplicit = "leave it out, or use method.update: usavg";
 
 const std::vector<FeatureRule>& feature_rules() {
   static const std::vector<FeatureRule> kRules = {
-      {Feature::sleep, Feature::average_dilatation, "averages need the neighbours of every block", kOneOut},
       {Feature::following_ground, Feature::absorbing_faces, "absorbing faces know the particles that they began with",
        "write fixed or slip"},
-      {Feature::following_ground, Feature::average_dilatation,
-       "it needs sleep, and averages need the neighbours of every block", kOneOut},
+      {Feature::following_ground, Feature::average_dilatation, "ground is made without the averages of its neighbours",
+       kOneOut},
       {Feature::following_ground, Feature::body_laws, "the ground is the only deformable body",
        "make the others rigid"},
       {Feature::following_ground, Feature::conditions,

@@ -25,7 +25,7 @@ Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
       parts_(std::move(parts)),
       pace_(parts_.implicit ? kImplicit : kExplicit),
       layout_(parts_.fields.front()->layout),
-      asleep_(parts_.sets, layout_),
+      asleep_(parts_.sets, layout_, parts_.averaged),
       watch_(definition.speed, definition.after),
       borders_(parts_.fields.size(), SleepBorder(layout_)) {
   account_.name = "sleep";
@@ -97,7 +97,11 @@ void Sleep::follow_sort(const StepContext& context) {
         node.at_wall = node.at_wall || partner->holds(static_cast<int>(f), node.ref);
     }
     grid.at_rest.clear();
-    for (const SleepBorder::Node& node : borders_[f].nodes()) grid.at_rest.push_back(node.ref);
+    grid.means_at_rest.clear();
+    for (const SleepBorder::Node& node : borders_[f].nodes()) {
+      grid.at_rest.push_back(node.ref);
+      if (parts_.averaged) grid.means_at_rest.push_back({node.ref, node.mass, node.stress});
+    }
   }
 }
 

@@ -68,6 +68,7 @@ void Sleep::share_memory(Communicator&) {
 
 void Sleep::fall_asleep() {
   const double cell = layout_.smallest_cell();
+  if (!sleepers_.empty()) parts_.probe->find_means();
   for (SleepingBlocks::Sleeper& sleeper : sleepers_) {
     const Grid& grid = *parts_.fields[sleeper.name.field];
     sleeper.forces = std::make_unique<BlockForces>();

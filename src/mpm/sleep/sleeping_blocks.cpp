@@ -279,19 +279,23 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
   }
   const StateArchive::Share share(archive, BlockForces::kMostNodes);
   std::vector<float> values;
-  for (int c = 0; c <= layout_.dim(); ++c) {  // the masses, then the forces along each axis
+  const auto numbers = [&](const std::string& name, auto&& of_tile) {
     values.clear();
     for (const SleepingBlock* block : blocks) {
-      const auto& of_tile = c == 0 ? block->forces.mass : block->forces.force[c - 1];
-      values.insert(values.end(), of_tile.begin(), of_tile.end());
+      const auto& own = *of_tile(block->forces);
+      values.insert(values.end(), own.begin(), own.end());
     }
-    archive.list(c == 0 ? "given_mass" : "given_force" + std::to_string(c - 1), values);
+    archive.list(name, values);
     for (std::size_t b = 0; b < keys.size() && archive.reading(); ++b) {
-      BlockForces& forces = block({fields[b], keys[b]}).forces;
-      auto& of_tile = c == 0 ? forces.mass : forces.force[c - 1];
-      for (int t = 0; t < BlockForces::kMostNodes; ++t) of_tile[t] += values[b * BlockForces::kMostNodes + t];
+      auto& own = *of_tile(block({fields[b], keys[b]}).forces);
+      for (int t = 0; t < BlockForces::kMostNodes; ++t) own[t] += values[b * BlockForces::kMostNodes + t];
     }
+  };
+  numbers("given_mass", [](auto& forces) { return &forces.mass; });
+  for (int k = 0; k < layout_.dim(); ++k) {
+    numbers("given_force" + std::to_string(k), [k](auto& forces) { return &forces.force[k]; });
   }
+  if (averaged_) numbers("given_stress", [](auto& forces) { return &forces.stress; });
 }
 
 // Makes those asleep the last ones: they are scattered where the particles of several ranks are read as one list.

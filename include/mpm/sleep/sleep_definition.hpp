@@ -13,7 +13,7 @@ struct SleepDefinition {
   double damping = 0.0;  ///< part of the force without balance that slow nodes lose, in [0, 1)
   /// Changes of what is transported that wake a block: of the temperature [K], concentration [1] and pressure of water
   /// [Pa]; without one, a thousandth of the range of the values that the scene gives.
-  std::optional<double> temperature, concentration, pore_pressure;
+  std::optional<double> temperature{}, concentration{}, pore_pressure{};
   bool from_start = false;  ///< all material that is at rest when the run begins is asleep after its first step
 };
 

@@ -21,6 +21,7 @@
 
 #include "mpm/math/function.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/rest_partner.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -48,11 +49,12 @@ struct HeldFace {
 
 /// All conditions of a scene. Audit: "condition/<name>", the impulse that each gave; what several along one direction
 /// give together at a node is booked in equal parts.
-class VelocityConditions final : public FieldStage {
+class VelocityConditions final : public FieldStage, public RestPartner {
  public:
-  /// `faces`: slip walls. @throws ConditionError for a direction that is not a unit vector of the grid's axes
+  /// `faces`: slip walls; `field`: the velocity field in which it acts. @throws ConditionError for a direction that is
+  /// not a unit vector of the grid's axes
   VelocityConditions(const std::vector<ConditionDefinition>& definitions, std::vector<HeldFace> faces,
-                     const GridLayout& layout);
+                     const GridLayout& layout, int field = 0);
 
   /// Finds the nodes that are held where material is now. @throws ConditionError when directions on a node, or a
   /// direction and a slip wall, are neither the same nor orthogonal
@@ -74,6 +76,11 @@ class VelocityConditions final : public FieldStage {
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit& limit) const override;
   void serialise(StateArchive& archive) override;
+
+  /// True where a condition moves a node of the block's tile now or until sleep asks again, and for a region that moves
+  /// and is as near as a block. A velocity of zero is a wall, under which material may sleep. @throws ConditionError
+  bool stirs(const RestingBlock& block, const RestTimes& times) override;
+  bool holds(int field, NodeRef node) const override;
 
   /// The largest prescribed speed at the held nodes at a time [s], the regions standing as they do now [m/s].
   /// @throws ConditionError
@@ -114,6 +121,13 @@ class VelocityConditions final : public FieldStage {
   /// `velocity`: along the direction, at which the impulse works [m/s].
   void give(const Held& held, const Vec3& impulse, double velocity);
 
+  /// The velocity that a condition gives a node by itself [m/s]. @throws ConditionError
+  double velocity_of(const Condition& condition, double time, const Vec3& position) const;
+  /// True if a condition moves a node of a block's tile at one of these times.
+  bool moves_tile(const Condition& condition, const RestingBlock& block, const RestTimes& times) const;
+
+  int field_;
+  GridLayout layout_;
   std::vector<Condition> conditions_;
   std::vector<HeldFace> faces_;
   std::vector<Found> found_;

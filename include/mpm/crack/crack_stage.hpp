@@ -5,7 +5,8 @@
 //   grid advanced     J, K and growth where they are due (crack_tips.hpp); surfaces and chains move (crack_motion.hpp);
 //                     tractions of the next step follow from the new openings
 //
-// Contact between faces is a stage of its own (crack_contact.hpp).
+// Contact between faces is a stage of its own (crack_contact.hpp). Blocks near a crack never sleep: those whose nodes
+// its particles and contours may need.
 //
 // Over several ranks all have the same chains, tips and laws, and move them alike, since they have all nodes near them
 // with the same bits (ranks/halo.hpp). What is asked of particles is gathered: which fields are in use at a node, the
@@ -22,11 +23,12 @@
 #include "mpm/crack/crack_motion.hpp"
 #include "mpm/crack/crack_tips.hpp"
 #include "mpm/crack/crack_tractions.hpp"
+#include "mpm/step/rest_partner.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
 
-class CrackStage final : public Stage {
+class CrackStage final : public Stage, public RestPartner {
  public:
   /// Parts that it works with; made by modules/crack_module.cpp. `sync`: between sync points [s].
   struct Parts {
@@ -39,6 +41,7 @@ class CrackStage final : public Stage {
     const std::vector<ParticleSet>* sets = nullptr;
     double sync = 0.0;
     int contour = 0;     ///< half of the edge of the contours of tips [cells]
+    double reach = 0.0;  ///< distance from a chain within which nodes are needed [cells]
     bool counts = true;  ///< over several ranks, which all have the same cracks: whether these are reported here
     std::unique_ptr<ScalarTransfer> masses;  ///< for the limit of the first step
     std::vector<Vec2> growing;               ///< places of tips
@@ -58,6 +61,10 @@ class CrackStage final : public Stage {
   void forces_gathered(StepContext& context) override;
   /// @throws ModuleError
   void grid_advanced(StepContext& context) override;
+
+  bool stirs(const RestingBlock& block, const RestTimes&) override {
+    return parts_->chosen->near(block.block, parts_->reach);
+  }
 
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit&) const override { return "stiffest law of tractions on a crack"; }

@@ -110,6 +110,13 @@ struct Grid {
   std::vector<std::uint8_t> elsewhere;
   /// Nodes that material asleep beside them holds at rest (sleep/sleep_border.hpp).
   std::vector<NodeRef> at_rest;
+  /// Share of what is asleep in such a node, where volume changes are averaged over the grid (kernel/mean.hpp).
+  struct MeanAtRest {
+    NodeRef node;
+    double mass;    ///< [kg]
+    double stress;  ///< sum of m S times the mean stress over the initial density [J]
+  };
+  std::vector<MeanAtRest> means_at_rest;
   /// A component of a node's velocity, along a world axis, that a condition prescribes.
   struct Prescribed {
     NodeRef node;

@@ -13,9 +13,11 @@
 
 namespace mpm {
 
-/// T is the precision of the sets. `laws`: of each set; `fields`, sets and laws outlive the result.
+/// T is the precision of the sets. `laws`: of each set; `fields`, sets and laws outlive the result. `averaged`: volume
+/// changes and pressures are averaged over the grid, on one process.
 template <class T>
 std::unique_ptr<BlockProbe> make_block_probe(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
-                                             std::vector<ParticleSet>& sets, const std::vector<Law>& laws);
+                                             std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                             bool averaged, int threads);
 
 }  // namespace mpm

@@ -26,6 +26,7 @@
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/traction.hpp"
 #include "mpm/step/domain_faces.hpp"
+#include "mpm/step/rest_partner.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -43,12 +44,14 @@ struct TractionTerm {
 };
 
 /// As ParticleLoads, one of the last stages: its work is taken with the velocity that conditions have left. Audit:
-/// "traction", the sum over faces of T times area times dt; the grid has no part in it.
-class FaceTractions : public Stage {
+/// "traction", the sum over the faces of particles awake of T times area times dt; the grid has no part in it. What
+/// sleeps bears the traction with which it fell asleep, and wakes when it changes.
+class FaceTractions : public Stage, public RestPartner {
  public:
-  /// `fields` and `sets` outlive this; those that a term with X, Y or Z acts on have their start_x.
+  /// `fields` and `sets` outlive this; those that a term with X, Y or Z acts on have their start_x. `gravity`: its size
+  /// [m/s^2].
   FaceTractions(const FaceSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
-                std::vector<TractionTerm> terms);
+                std::vector<TractionTerm> terms, double gravity = 0.0);
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook) const override { return {Rank::traction}; }
@@ -56,6 +59,9 @@ class FaceTractions : public Stage {
   /// @throws LoadError for a traction that is not finite, or a corner that lies off the grid
   void forces_gathered(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
+  bool stirs(const RestingBlock& block, const RestTimes& times) override;
+  /// Those of the step that has ended, in which it was at rest.
+  void add_forces(const RestingBlock& block, BlockForces& forces) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void serialise(StateArchive& archive) override {
@@ -67,6 +73,7 @@ class FaceTractions : public Stage {
 
  private:
   struct NodalLoad {
+    int set, particle;
     int field;
     NodeRef node;
     Vec3 force;  ///< by world axis [N]
@@ -74,7 +81,8 @@ class FaceTractions : public Stage {
 
   void look_for_particles();
   /// By world axis [Pa].
-  Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, const StepContext& context) const;
+  /// `half`: half of the step [s], in which the particle moves on until `time` [s].
+  Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, double time, double half) const;
   /// A force on the nodes of the cell that a place is in, in the particle's field.
   void spread(int set, int p, const PlacedDomain::Vector& at, const Vec3& force);
   /// Adds the loads of a field on all ranks to its forces.
@@ -91,6 +99,9 @@ class FaceTractions : public Stage {
   std::vector<NodalLoad> loads_;          ///< loads of this step
   Halo* halo_;
   NodalField nodal_;  ///< nodal values of a field's loads, where there is a halo [N]
+  double weight_;     ///< weight of a unit of mass [N/kg]
+  std::vector<std::vector<char>>
+      bears_;  ///< marks of particles by id from the set's first, for each term that changes with time
   ImpulseAccount account_;
   double work_ = 0.0;
 };

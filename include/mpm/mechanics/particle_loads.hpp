@@ -25,6 +25,7 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/function.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/step/rest_partner.hpp"
 #include "mpm/step/scalar_transfer.hpp"
 #include "mpm/step/stage.hpp"
 
@@ -61,13 +62,18 @@ struct LoadTransfers {
   std::unique_ptr<ScalarTransfer> domain, center;
 };
 
+class ParticleLoadStage : public Stage, public RestPartner {};
+
 /// All loads of a scene on particles, as one stage. Its work is nodal load times the displacement of its node in a
 /// step, with the velocity that conditions have left, over the displacement of FLIP (GIMP notes (2.16)); where
 /// particles move otherwise (PIC, XPIC, FMPM, APIC) it is right to first order in dt. Audit: "body_force" and
-/// "particle_force", those that there are: the sums over particles of m b dt and of F dt; the grid has no part in them.
-/// `transfers`: of these fields and sets, which outlive the result; sets that a term with X, Y or Z acts on have their
-/// start_x.
-std::unique_ptr<Stage> make_particle_loads(LoadTransfers transfers, Fields& fields, std::vector<ParticleSet>& sets,
-                                           const std::vector<ParticleLoadTerm>& terms, int threads);
+/// "particle_force", those that there are: the sums over particles awake of m b dt and of F dt; the grid has no part in
+/// them. What sleeps bears the load with which it fell asleep, and wakes when it changes.
+/// `gravity`: its size [m/s^2]. `transfers`: of these fields and sets, which outlive the result; sets that a term with
+/// X, Y or Z acts on have their start_x.
+std::unique_ptr<ParticleLoadStage> make_particle_loads(LoadTransfers transfers, Fields& fields,
+                                                       std::vector<ParticleSet>& sets,
+                                                       const std::vector<ParticleLoadTerm>& terms, int threads,
+                                                       double gravity = 0.0);
 
 }  // namespace mpm

@@ -27,6 +27,7 @@ namespace mpm {
 class DampingControl;
 class FollowingBed;
 class HeatSink;
+class RestPartner;
 class Sleep;
 class StressAverage;
 class ToolSides;
@@ -67,6 +68,7 @@ struct RunParts {
   TransportedField* temperature = nullptr;
   Sleep* sleep = nullptr;
   StressAverage* stress_average = nullptr;
+  std::vector<RestPartner*> rest_partners = {};  ///< modules that act on material at rest, which sleep asks
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();

@@ -7,7 +7,9 @@
 // more, and the momentum that was taken make the account "sleep" of the audit, and the kinetic energies that were taken
 // the energy "sleep". A block wakes when a wave or other material arrives at its border, when the force there has lost
 // a part of its balance (a tenth, unless the scene says another), when a tool comes as near as four cells, or when
-// another body's material comes as near as a block.
+// another body's material comes as near as a block; and when loads, conditions, what is transported or a crack ask for
+// it (step/rest_partner.hpp), each of which keeps blocks awake, too. A load that stays is part of the balance, as
+// gravity is.
 //
 // An implicit step holds the nodes at the border itself, as walls hold theirs, and leaves them the velocity that they
 // would have had, from which this takes the same impulse. It costs as much as many explicit steps, so that looks and
@@ -36,6 +38,7 @@
 #include "mpm/sleep/sleep_border.hpp"
 #include "mpm/sleep/sleep_definition.hpp"
 #include "mpm/sleep/sleeping_blocks.hpp"
+#include "mpm/step/rest_partner.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -49,7 +52,10 @@ struct SleepParts {
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
   bool implicit = false;  ///< true if steps are implicit
+  bool averaged = false;  ///< true if volume changes are averaged over the grid
   Halo* halo = nullptr;   ///< null for one process
+  /// Those who act on material at rest; they outlive it.
+  std::vector<RestPartner*> partners = {};
 };
 
 /// Times that the work of sleep waits, so that it costs a small part of steps.
@@ -132,6 +138,16 @@ class Sleep final : public Stage {
   bool none_asleep() const;
   /// True if a tool is so near to a block that it has to be awake, in steps of `dt` [s].
   bool tool_near(const std::array<int, 3>& block, double dt) const;
+  /// Steps until the next look has been done, and what it found has woken.
+  double ahead_of_looks() const { return 2.0 * pace_.between_looks; }
+  /// True if a partner has a block awake that is at rest otherwise.
+  bool is_kept_awake(const RestingBlock& block, const RestTimes& times) const;
+  RestingBlock awake_block(int field, int owner) const;
+  static RestingBlock asleep_block(const SleepingBlock& block, const GridLayout& layout);
+  /// Adds blocks asleep that partners wake.
+  void ask_partners(const StepContext& context);
+  /// Wakes what is asleep, or takes it away, and tells partners.
+  void tell_of_waking(const BlockName& name) const;
   /// True if material of another velocity field is near to a block of one.
   bool other_near(int field, std::uint64_t key) const;
   void find_unrest(StepContext& context);
@@ -154,6 +170,7 @@ class Sleep final : public Stage {
   std::uint32_t steps_waited_ = 0;                 ///< by those who are to wake
   bool at_once_ = false;                           ///< one of them cannot wait
   Which stays_;                                    ///< may be empty
+  double now_ = 0.0;                               ///< end of the last step [s]
   bool begun_ = false;                             ///< the first step is done
   bool just_read_ = false;                         ///< a checkpoint has been read, and no step has followed
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< those who may fall asleep, without forces yet

@@ -24,6 +24,7 @@ class SleepBorder {
     NodeRef ref;
     double mass = 0.0;          ///< mass of what is asleep [kg]
     Vec3 force = Vec3::Zero();  ///< internal, of what is asleep [N]
+    double stress = 0.0;        ///< as in BlockForces, of what is asleep [J]
     double rate = 0.0;          ///< by which a wave would cross a cell [1/s]
     std::uint32_t from = 0;     ///< a bit for each block around that is asleep and reaches the node
     bool at_wall = false;       ///< a wall holds it too, with a force that is not known here

@@ -53,6 +53,7 @@ struct SleepingBlock {
   BlockName name;
   double rate = 0.0;                                  ///< by which the fastest wave would cross a cell [1/s]
   double mass = 0.0;                                  ///< mass of its particles [kg]
+  double since = 0.0;                                 ///< time at which its first particles fell asleep [s]
   BlockForces forces;                                 ///< on the nodes of its tile
   std::vector<std::vector<std::uint32_t>> particles;  ///< places of those of each set
 };
@@ -65,14 +66,16 @@ struct TakenMotion {
 
 class SleepingBlocks {
  public:
-  /// `sets` outlive it.
-  SleepingBlocks(std::vector<ParticleSet>& sets, const GridLayout& layout) : sets_(sets), layout_(layout) {}
+  /// `sets` outlive it. `averaged`: volume changes are averaged over the grid.
+  SleepingBlocks(std::vector<ParticleSet>& sets, const GridLayout& layout, bool averaged)
+      : sets_(sets), layout_(layout), averaged_(averaged) {}
 
   /// A block that is to fall asleep: all particles of an owner (numbered through all fields).
   struct Sleeper {
     BlockName name;
     int owner = 0;
     double rate = 0.0;
+    double since = 0.0;  ///< as in SleepingBlock
     std::unique_ptr<BlockForces> forces;
   };
   /// Puts them to sleep, in ascending order of owners; particles have to be sorted. After it they are not any more.
@@ -154,6 +157,7 @@ class SleepingBlocks {
 
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
+  bool averaged_;
   ByName by_name_, whole_;
   std::vector<std::vector<Owned>> owned_;  ///< owners in each set, by place
   std::vector<int> first_;                 ///< for each set, the place of the first one asleep

@@ -51,6 +51,8 @@ class DomainFaces {
 
   /// The face of a particle as the step begins; its area is that of the whole ring about an axis [m^2].
   FaceParts parts(int set, int particle, DomainFace face) const;
+  /// The same of the box that a particle, which may be asleep, had at the start, where it is now.
+  FaceParts parts_of_box(int set, int particle, DomainFace face) const;
   /// Shares of a corner of that face, in the particle's velocity fields.
   NodeShares shares(int set, int particle, const PlacedDomain::Vector& at) const;
   const GridLayout& layout() const { return fields_.front()->layout; }

@@ -70,6 +70,16 @@ class ScalarTransfer {
   /// gradient of the values that their nodes have in all of them. `from` and `to`: of each field.
   virtual void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
                               std::vector<NodalField>& to) = 0;
+
+  // Transfers of the particles of one block, by the number of its owner in the field. `around` has the 3^dim blocks
+  // around it, itself in the middle, the last axis fastest (take_tile() in step/block_probe.hpp).
+
+  /// spread() of this block.
+  virtual void spread_of_block(int field, int owner, const Given& of, Weight weight, NodalField& around) = 0;
+  /// spread_gradient() of this block, or spread_gradient_sum() where `around` has more than one component.
+  virtual void spread_gradient_of_block(int field, int owner, const Given& of, Weight weight, NodalField& around) = 0;
+  /// gradient() at the particles of this block.
+  virtual void gradient_of_block(int field, int owner, const NodalField& from, const Taken& to) = 0;
 };
 
 }  // namespace mpm

@@ -26,6 +26,7 @@ class FaceFlux final : public NodalSource {
   /// @throws TransportError for a flux that is not finite, or a face off the grid
   void give(std::vector<NodalQuantity>& nodes, double start, double dt) override;
   double conductance(double most) const override;
+  bool feeds(const RestingBlock& block) const override;
   void accounts(std::vector<ContentAccount>& list) const override;
   void serialise(StateArchive& archive) override;
 
@@ -38,6 +39,8 @@ class FaceFlux final : public NodalSource {
   const Fields& fields_;
   const std::vector<ParticleSet>& sets_;
   std::vector<FluxTerm> terms_;
+  std::vector<std::vector<char>>
+      fed_;  ///< marks of the particles of each set that a flux acts on, by id from its first
   std::vector<ContentAccount> accounts_;
   std::vector<int> place_of_;
   Halo* halo_;

@@ -7,6 +7,7 @@
 
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/step/rest_partner.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -37,6 +38,8 @@ class NodalSource {
   virtual void accounts(std::vector<ContentAccount>& list) const = 0;
   /// Largest dQ/dT by area, of what depends on the quantity at the node, up to this value of it; 0: none.
   virtual double conductance(double /*most*/) const { return 0.0; }
+  /// True if it may feed particles of a block at rest, which then has to be awake.
+  virtual bool feeds(const RestingBlock& /*block*/) const { return false; }
   /// True if an update must not wait.
   virtual bool pending() const { return false; }
   virtual void serialise(StateArchive& archive) = 0;

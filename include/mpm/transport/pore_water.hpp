@@ -44,6 +44,8 @@ class PoreWater {
 
   /// Adds the force of the pressure to the nodes.
   void add_force(StepContext& context);
+  /// Adds to `forces` those of a block that falls asleep after a step, as in its last add_force().
+  void add_forces(const RestingBlock& block, BlockForces& forces);
   /// Work of the pressure on the skeleton since the start [J]: to be called once in a step, after its force was added.
   double work() const { return work_; }
   /// Radial momentum by the hoop direction about an axis in this step [N s].
@@ -57,17 +59,20 @@ class PoreWater {
   double stiffness(int set) const;
   /// Finds what pushes along a grid axis, by mass: row `axis` of alpha times p J / rho0.
   void push_rows(int set, int axis);
+  void push_rows(int set, int axis, int first, int end);
   /// Replaces what pushes by the mean of the nodes around a particle, the adjoint of an averaged strain; and so the
   /// pressure that is seen.
   void average();
   /// The same of the hoop direction alone.
   void push_hoop(int set);
+  void push_hoop(int set, int first, int end);
 
   TransportedField& pressure_;
   TransportParts parts_;
   std::unique_ptr<ScalarTransfer> transfer_;
   bool isotropic_ = true, averaged_;
   NodalField force_, part_;
+  NodalField around_, one_around_;  ///< scratch: forces of one block, along all axes and along one [N]
   std::vector<std::array<PaddedArray<double>, 3>> push_;  ///< push of each set, pushed_ of them in use
   int pushed_ = 0;
   ScalarTransfer::Given pushes_, by_axis_;

@@ -10,6 +10,9 @@
 // little for it. Reports are those of the sync point. One that moves fast is updated in every step, in stages; the step
 // of the mechanics does not shorten for it. The pressure of water, which pushes the material at once, is updated in
 // every step too; it changes the speed of waves, and so the step.
+//
+// Where blocks sleep, a quantity keeps them awake while it changes, and wakes them (content_at_rest.hpp); the force of
+// the water is one of those that a block asleep remembers.
 #pragma once
 
 #include <memory>
@@ -26,7 +29,7 @@ namespace mpm {
 /// Names and units of the numbers that any scene may have, by name "temperature content".
 std::vector<std::pair<std::string, std::string>> transport_numbers();
 
-class Transport final : public Stage {
+class Transport final : public Stage, public RestPartner {
  public:
   /// `drained_speeds`: of each set, its fastest wave without water [m/s]; `sync`: [ns].
   Transport(TransportParts parts, std::int64_t sync, std::vector<double> drained_speeds);
@@ -38,6 +41,18 @@ class Transport final : public Stage {
   void set_surface_heat(SurfaceHeat* heat) { surface_ = heat; }
   /// Makes the sets whose materials expand remember their free strain.
   void prepare_expansion();
+
+  bool stirs(const RestingBlock& block, const RestTimes& times) override;
+  bool at_once() const override { return false; }
+  void add_forces(const RestingBlock& block, BlockForces& forces) override {
+    if (water_) water_->add_forces(block, forces);
+  }
+  void falls_asleep(const RestingBlock& block) override {
+    for (const auto& field : fields_) field->falls_asleep(block);
+  }
+  void wakes(const RestingBlock& block) override {
+    for (const auto& field : fields_) field->wakes(block);
+  }
 
   std::string name() const override { return "transport"; }
   Ranks ranks(Hook) const override { return {Rank::transport}; }

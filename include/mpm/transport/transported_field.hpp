@@ -23,6 +23,8 @@
 //
 // nodal_flow.cpp brings it to the nodes and moves it there, handing_over.cpp back to the particles.
 //
+// Where blocks sleep, content_at_rest.hpp says what becomes of it (field_at_rest.cpp).
+//
 // Weak: first order in time where one stage is enough; values in a region hold at whole nodes; about an axis r = 0
 // needs nothing, since no area is there. Source: method reference 9.
 #pragma once
@@ -41,6 +43,7 @@
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/module.hpp"
 #include "mpm/step/scalar_transfer.hpp"
+#include "mpm/transport/content_at_rest.hpp"
 #include "mpm/transport/definition.hpp"
 #include "mpm/transport/local_gain.hpp"
 #include "mpm/transport/nodal_source.hpp"
@@ -112,6 +115,19 @@ class TransportedField {
   PaddedArray<double>& values(int set) { return parts_.sets[set].brought[place_[set]].values; }
   const PaddedArray<double>& values(int set) const { return parts_.sets[set].brought[place_[set]].values; }
 
+  // Functions for blocks that sleep, as RestPartner has them.
+
+  /// Blocks may sleep, for the whole run. `asked`: change of the quantity that wakes a block; without it a thousandth
+  /// of the range of the values that the scene gives. `after`: time of rest [s]. @throws TransportError if there is no
+  /// such range
+  void let_sleep(std::optional<double> asked, double after);
+  bool stirs(const RestingBlock& block, double now) const;
+  void falls_asleep(const RestingBlock& block);
+  void wakes(const RestingBlock& block);
+  void hashed(std::vector<double>& numbers) const {
+    if (rest_) rest_->hashed(numbers);
+  }
+
   /// Content that came in since the start by each source, condition and local gain.
   std::vector<ContentAccount> accounts() const;
   /// Sum over the particles here of what they hold, by its size [content]: heat above the absolute zero.
@@ -147,7 +163,9 @@ class TransportedField {
   /// Sets the first scratch array of every set.
   void fill(Number number);
   void spread_scratch(int field, NodalField& to);
-  void find_nodal_values();
+  /// Returns what flows to nodes from material asleep [content/s]. `moved`: particles have moved since their masses
+  /// were gathered.
+  double find_nodal_values(bool moved = false);
   void find_held();
   double prescribed(const Held& held, double time) const;
   /// Flow to the nodes down the gradient of `value` [content/s]; conductances are in the scratch arrays.
@@ -172,6 +190,14 @@ class TransportedField {
   void finish(double start, double dt, bool sees);
   void follow_ramps(double start, double dt);
   void check_range() const;
+  bool is_fed(const RestingBlock& block) const;
+  /// Gives nodes of a field the share of what is asleep there; what flows to them from it [content/s].
+  double join_at_rest(int field);
+  /// Keeps what has come to these nodes for it.
+  void keep_for_rest(int field);
+  void watch_rest(double now, double dt);
+  void find_values_at_rest();
+  void add_flow_at_rest(const RestingBlock& block, ContentAtRest::Tile& tile);
   /// @throws StoppedError
   void ask_to_stop();
 
@@ -213,6 +239,15 @@ class TransportedField {
   double gained_ = 0.0, given_to_laws_ = 0.0;
   bool gives_to_laws_ = false;
   std::uint32_t asked_ = 0;
+
+  // Members for blocks that sleep.
+  std::optional<ContentAtRest> rest_;
+  std::vector<Box> changing_;      ///< bounds of regions whose values change with time
+  std::vector<double> changes_;    ///< scratch: fastest change of each owner of a field
+  NodalField around_;              ///< scratch: nodes of the blocks around one
+  double updated_ = 0.0;           ///< end of the last update [s]
+  std::uint64_t rests_since_ = 0;  ///< generation of the blocks for which values at rest were found
+  ContentAccount at_rest_;         ///< content that flowed steadily from and to material asleep
 };
 
 /// "(1, 0, 2) m"

@@ -25,8 +25,8 @@ double along(const NodalField& field, const GridLayout& layout, NodeRef ref, con
 }  // namespace
 
 VelocityConditions::VelocityConditions(const std::vector<ConditionDefinition>& definitions, std::vector<HeldFace> faces,
-                                       const GridLayout& layout)
-    : faces_(std::move(faces)) {
+                                       const GridLayout& layout, int field)
+    : field_(field), layout_(layout), faces_(std::move(faces)) {
   for (const ConditionDefinition& definition : definitions) {
     Condition condition{
         RigidBody(definition.region), definition.direction, definition.velocity, definition.where, {}, Vec3::Zero()};
@@ -130,18 +130,57 @@ void VelocityConditions::find_nodes(const Grid& grid) {
 double VelocityConditions::value(const Held& held, double time) const {
   double sum = 0.0;
   for (int i = held.first; i < held.first + held.count; ++i) {
-    const Condition& condition = conditions_[parts_[i].condition];
-    if (!condition.velocity) {
-      sum += parts_[i].sign * condition.region.velocity_at(held.position).dot(condition.direction);
-      continue;
-    }
-    try {
-      sum += parts_[i].sign * (*condition.velocity)(time, held.position);
-    } catch (const FunctionError& error) {
-      throw ConditionError(fmt::format("{}: {}", title(condition), error.what()));
-    }
+    sum += parts_[i].sign * velocity_of(conditions_[parts_[i].condition], time, held.position);
   }
   return sum;
+}
+
+double VelocityConditions::velocity_of(const Condition& condition, double time, const Vec3& position) const {
+  if (!condition.velocity) return condition.region.velocity_at(position).dot(condition.direction);
+  try {
+    return (*condition.velocity)(time, position);
+  } catch (const FunctionError& error) {
+    throw ConditionError(fmt::format("{}: {}", title(condition), error.what()));
+  }
+}
+
+bool VelocityConditions::stirs(const RestingBlock& block, const RestTimes& times) {
+  if (block.field != field_) return false;
+  const auto moves = [&](const Condition& condition) { return moves_tile(condition, block, times); };
+  return std::any_of(conditions_.begin(), conditions_.end(), moves);
+}
+
+bool VelocityConditions::moves_tile(const Condition& condition, const RestingBlock& block,
+                                    const RestTimes& times) const {
+  if (condition.velocity && condition.velocity->is_zero()) return false;
+  const RigidBody& region = condition.region;
+  const double margin = BlockForces::kMargin * layout_.largest_cell();
+  const Box nodes{layout_.node_position(block.block, 0),
+                  layout_.node_position(block.block, layout_.nodes_per_block() - 1)};
+  if (moves(region.definition())) return region.world_bounds().intersects(nodes.grown(kBlockEdge * margin));
+  if (!condition.velocity || !region.world_bounds().intersects(nodes.grown(margin))) return false;
+  const auto moved = [&](const Vec3& position) {
+    return velocity_of(condition, times.now, position) != 0.0 || velocity_of(condition, times.ahead, position) != 0.0;
+  };
+  if (!condition.velocity->uses_place() && !moved(nodes.center())) return false;
+  const double band = kOnSurface * layout_.smallest_cell();
+  bool any = false;
+  each_tile_node(layout_.dim(), [&](int, int beside, int node) {
+    if (any) return;
+    const Vec3 position = layout_.node_position(neighbour_of(block.block, beside, layout_.dim()), node);
+    SurfacePoint point;
+    any = region.surface().within(region.pose().to_body(position), band, point) && moved(position);
+  });
+  return any;
+}
+
+bool VelocityConditions::holds(int field, NodeRef node) const {
+  if (field != field_) return false;
+  const auto before = [](const Held& held, const NodeRef& ref) {
+    return held.ref.block != ref.block ? held.ref.block < ref.block : held.ref.node < ref.node;
+  };
+  const auto at = std::lower_bound(held_.begin(), held_.end(), node, before);
+  return at != held_.end() && at->ref == node;
 }
 
 double VelocityConditions::largest_speed(double time) const {

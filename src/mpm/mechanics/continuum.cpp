@@ -287,6 +287,11 @@ class Continuum final : public Mechanics {
       Field& field = passes_.fields()[f];
       if (patches) settings_.choice->give(patches->mean, static_cast<int>(f), field.mean);
       add_of_others(settings_.halo, static_cast<int>(f), field.mean);
+      for (const Grid::MeanAtRest& rests : field.grid.means_at_rest) {
+        double& mean = field.mean.at(rests.node.block, 0, rests.node.node);
+        const double mass = field.grid.mass.at(rests.node.block, 0, rests.node.node);
+        mean = (mean + (of_stress ? rests.stress : 0.0)) * mass / (mass + rests.mass);
+      }
       passes_.each_carrying(kMeans, field.grid,
                             [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
       if (patches) settings_.choice->take(field.mean, static_cast<int>(f), patches->mean);

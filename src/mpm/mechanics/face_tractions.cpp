@@ -2,16 +2,19 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace mpm {
 
 FaceTractions::FaceTractions(const FaceSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
-                             std::vector<TractionTerm> terms)
+                             std::vector<TractionTerm> terms, double gravity)
     : fields_(fields),
       sets_(sets),
       faces_(settings, fields, sets),
       terms_(std::move(terms)),
       halo_(settings.halo),
-      nodal_(faces_.layout().dim(), faces_.layout().nodes_per_block()) {
+      nodal_(faces_.layout().dim(), faces_.layout().nodes_per_block()),
+      weight_(gravity) {
   const int dim = dimensions(settings.geometry);
   std::size_t corners = 0;
   places_.resize(terms_.size());
@@ -20,6 +23,15 @@ FaceTractions::FaceTractions(const FaceSettings& settings, Fields& fields, const
     corners += terms_[i].particles.size() << (dim - 1);
   }
   loads_.reserve(corners << dim);
+  for (const TractionTerm& term : terms_) {
+    std::vector<char>& bears = bears_.emplace_back();
+    const auto by_time = [](const Function& f) { return f.uses_time(); };
+    if (std::none_of(term.value.begin(), term.value.end(), by_time)) continue;
+    for (const std::uint32_t id : term.particles) {
+      if (id >= bears.size()) bears.resize(id + 1, 0);
+      bears[id] = 1;
+    }
+  }
   account_.name = "traction";
 }
 
@@ -40,11 +52,9 @@ void FaceTractions::look_for_particles() {
   }
 }
 
-Vec3 FaceTractions::value_at(const TractionTerm& term, const FaceParts& parts, int p,
-                             const StepContext& context) const {
-  const GridLayout& layout = context.layout();
+Vec3 FaceTractions::value_at(const TractionTerm& term, const FaceParts& parts, int p, double time, double half) const {
+  const GridLayout& layout = faces_.layout();
   const ParticleSet& set = sets_[term.set];
-  const double half = 0.5 * context.dt;
   Vec3 place = Vec3::Zero(), start = Vec3::Zero();
   for (int k = 0; k < layout.dim(); ++k) {
     const int axis = layout.axis(k);
@@ -55,7 +65,7 @@ Vec3 FaceTractions::value_at(const TractionTerm& term, const FaceParts& parts, i
   std::array<double, 3> given{};
   for (int i = 0; i < 3; ++i) {
     try {
-      given[i] = term.value[i](context.start + half, place, start);
+      given[i] = term.value[i](time, place, start);
     } catch (const FunctionError& error) {
       throw LoadError(fmt::format("traction on '{}' at particle {}: {}", set.name, set.id[p], error.what()));
     }
@@ -79,7 +89,7 @@ void FaceTractions::spread(int set, int p, const PlacedDomain::Vector& at, const
         sets_[set].name, sets_[set].id[p]));
   }
   for (int i = 0; i < shares.count; ++i) {
-    loads_.push_back({shares.field[i], shares.node[i], force * shares.share[i]});
+    loads_.push_back({set, p, shares.field[i], shares.node[i], force * shares.share[i]});
   }
 }
 
@@ -91,13 +101,14 @@ void FaceTractions::forces_gathered(StepContext& context) {
     generation_ = generation;
   }
   loads_.clear();
+  const double half = 0.5 * context.dt;
   Vec3 impulse = Vec3::Zero();
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const TractionTerm& term = terms_[i];
     for (const int p : places_[i]) {
-      if (p < 0) continue;
+      if (p < 0 || p >= sets_[term.set].awake()) continue;
       const FaceParts parts = faces_.parts(term.set, p, term.face);
-      const Vec3 traction = value_at(term, parts, p, context);
+      const Vec3 traction = value_at(term, parts, p, context.start + half, half);
       impulse += traction * (parts.area * context.dt);
       for (int a = 0; a < parts.corners; ++a) {
         spread(term.set, p, parts.corner[a].at, traction * parts.corner[a].area);
@@ -113,6 +124,43 @@ void FaceTractions::forces_gathered(StepContext& context) {
     for (std::size_t f = 0; f < fields_.size(); ++f) add_over_ranks(static_cast<int>(f));
   }
   account_.add(impulse);
+}
+
+bool FaceTractions::stirs(const RestingBlock& block, const RestTimes& times) {
+  double change = 0.0, scale = 0.0;
+  block.each(sets_, [&](std::size_t s, int p) {
+    const ParticleSet& set = sets_[s];
+    scale += set.mass_of(p) * weight_;
+    const std::uint32_t id = set.id[p] - set.first_id;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].set != static_cast<int>(s) || id >= bears_[i].size() || bears_[i][id] == 0) continue;
+      const FaceParts parts = faces_.parts_of_box(terms_[i].set, p, terms_[i].face);
+      const Vec3 before = value_at(terms_[i], parts, p, times.before, 0.0);
+      change += parts.area * (value_at(terms_[i], parts, p, times.now, 0.0) - before).norm();
+      scale += parts.area * before.norm();
+    }
+  });
+  return change > times.part * scale;
+}
+
+void FaceTractions::add_forces(const RestingBlock& block, BlockForces& forces) {
+  const GridLayout& layout = faces_.layout();
+  const int at = block.first_owner + block.owner;
+  for (const NodalLoad& load : loads_) {
+    const auto p = static_cast<std::uint32_t>(load.particle);
+    const std::vector<std::uint32_t>& begin = sets_[load.set].begin;
+    if (p < begin[at] || p >= begin[at + 1]) continue;
+    const std::array<int, 3> node = layout.node(fields_[load.field]->blocks.block(load.node.block), load.node.node);
+    int of_tile = 0;
+    bool inside = true;
+    for (int k = 0; k < layout.dim(); ++k) {
+      const int along = node[k] - block.block[k] * kBlockEdge + BlockForces::kMargin;
+      inside = inside && along >= 0 && along < BlockForces::kEdge;
+      of_tile = of_tile * BlockForces::kEdge + along;
+    }
+    if (!inside) continue;
+    for (int k = 0; k < layout.dim(); ++k) forces.force[k][of_tile] += static_cast<float>(load.force[layout.axis(k)]);
+  }
 }
 
 void FaceTractions::add_over_ranks(int field) {

@@ -15,22 +15,26 @@ constexpr int kSpreads = 2, kKinds = 2;
 constexpr std::array<const char*, kKinds> kKindNames = {"body_force", "particle_force"};
 constexpr std::array<const char*, kKinds> kKindTexts = {"body force", "particle force"};
 
-class ParticleLoads final : public Stage {
+class ParticleLoads final : public ParticleLoadStage {
   /// Particles whose sum is made in one go, so that it does not depend on the number of threads.
   static constexpr int kGroup = 1024;
 
  public:
   ParticleLoads(LoadTransfers transfers, Fields& fields, std::vector<ParticleSet>& sets,
-                const std::vector<ParticleLoadTerm>& terms, int threads)
+                const std::vector<ParticleLoadTerm>& terms, int threads, double gravity)
       : transfers_{std::move(transfers.domain), std::move(transfers.center)},
         dim_(static_cast<int>(sets.front().x.size())),
         fields_(fields),
         sets_(sets),
         threads_(threads),
+        weight_(gravity),
         given_(sets.size()),
         nodal_(fields.size(), NodalField(dim_, nodes_of_block(dim_))),
         fault_(threads) {
-    for (const ParticleLoadTerm& term : terms) terms_.emplace_back(term, threads);
+    for (const ParticleLoadTerm& term : terms) {
+      terms_.emplace_back(term, threads);
+      changes_ = changes_ || terms_.back().changes();
+    }
     values_.resize(sets.size());
     for (std::size_t s = 0; s < sets.size(); ++s) {
       for (const Term& term : terms_) {
@@ -69,6 +73,28 @@ class ParticleLoads final : public Stage {
     work_ += power * context.dt;
   }
 
+  // Asked of one block after another, by one thread.
+  bool stirs(const RestingBlock& block, const RestTimes& times) override {
+    if (!changes_) return false;
+    double change = 0.0, scale = 0.0;
+    block.each(sets_, [&](std::size_t s, int p) {
+      const double mass = sets_[s].mass_of(p);
+      const Vec3 before = changing_force(s, p, mass, times.before), now = changing_force(s, p, mass, times.now);
+      change += (now - before).norm();
+      scale += before.norm() + mass * weight_;
+    });
+    return change > times.part * scale;
+  }
+
+  // Those of the step that has ended, in which it was at rest.
+  void add_forces(const RestingBlock& block, BlockForces& forces) override {
+    for (int spread = 0; spread < kSpreads; ++spread) {
+      if (!look_at(spread)) continue;
+      transfers_[spread]->spread_of_block(block.field, block.owner, given_, ScalarTransfer::Weight::mass, around_);
+      add_around(around_, forces);
+    }
+  }
+
   void accounts(std::vector<ImpulseAccount>& list) const override {
     for (int kind = 0; kind < kKinds; ++kind) {
       if (there_[kind]) list.push_back(accounts_[kind]);
@@ -91,6 +117,13 @@ class ParticleLoads final : public Stage {
       }
     }
     bool acts_on(std::size_t set) const { return !of.set || *of.set == static_cast<int>(set); }
+    bool acts_on(std::size_t set, std::uint32_t particle) const {
+      return acts_on(set) && (of.chosen.empty() || of.chosen[particle] != 0);
+    }
+    bool changes() const {
+      const auto by_time = [](const Function& f) { return f.uses_time(); };
+      return std::any_of(of.value.begin(), of.value.end(), by_time);
+    }
     int spread() const { return static_cast<int>(of.spread); }
     int kind() const { return static_cast<int>(of.kind); }
 
@@ -101,19 +134,44 @@ class ParticleLoads final : public Stage {
 
   static ByKind nothing() { return {Vec3::Zero(), Vec3::Zero()}; }
 
-  // Acceleration of every particle, and the impulse that it is.
+  // The force on a particle at rest by loads that change with time [N].
+  Vec3 changing_force(std::size_t s, int p, double mass, double time) {
+    const GridLayout& layout = fields_.front()->layout;
+    const ParticleSet& set = sets_[s];
+    Vec3 place = Vec3::Zero(), start = Vec3::Zero(), force = Vec3::Zero();
+    for (int k = 0; k < dim_; ++k) {
+      place[layout.axis(k)] = set.x[k][p];
+      if (!set.start_x.empty()) start[layout.axis(k)] = set.start_x[k][p];
+    }
+    for (Term& term : terms_) {
+      if (!term.acts_on(s, set.id[p] - set.first_id)) continue;
+      for (int k = 0; k < dim_; ++k) {
+        const int axis = layout.axis(k);
+        if (!term.of.value[axis].uses_time()) continue;
+        try {
+          force[axis] += term.copies[0][axis](time, place, start) * (term.of.each ? 1.0 : term.of.factor * mass);
+        } catch (const FunctionError& error) {
+          throw LoadError(
+              fmt::format("{} on '{}', along {}: {}", kKindTexts[term.kind()], set.name, "xyz"[axis], error.what()));
+        }
+      }
+    }
+    return force;
+  }
+
+  // Acceleration of every particle awake, and the impulse that it is.
   void evaluate(const StepContext& context) {
     ByKind impulse = nothing();
     fault_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       if (values_[s][0].empty() && values_[s][1].empty()) continue;
       const ParticleSet& set = sets_[s];
-      const int groups = (set.size() + kGroup - 1) / kGroup;
+      const int groups = (set.awake() + kGroup - 1) / kGroup;
       make_room(s, groups);
       for_parts("particles: loads", threads_, groups, [&](int first, int last, int thread) {
         for (int g = first; g < last; ++g) {
           sums_[g] = nothing();
-          const int end = std::min(set.size(), (g + 1) * kGroup);
+          const int end = std::min(set.awake(), (g + 1) * kGroup);
           for (int p = g * kGroup; p < end; ++p) at_particle(context, s, p, thread, sums_[g]);
         }
       });
@@ -149,8 +207,7 @@ class ParticleLoads final : public Stage {
     const double mass = set.mass_of(p);
     std::array<Vec3, kSpreads> b = {Vec3::Zero(), Vec3::Zero()};
     for (Term& term : terms_) {
-      if (!term.acts_on(s)) continue;
-      if (!term.of.chosen.empty() && term.of.chosen[set.id[p] - set.first_id] == 0) continue;
+      if (!term.acts_on(s, set.id[p] - set.first_id)) continue;
       for (int k = 0; k < dim_; ++k) {  // no momentum along axes that the grid does not have
         const int axis = layout.axis(k);
         try {
@@ -209,12 +266,15 @@ class ParticleLoads final : public Stage {
   Fields& fields_;
   std::vector<ParticleSet>& sets_;
   int threads_;
+  double weight_;         ///< weight of a unit of mass [N/kg]
+  bool changes_ = false;  ///< some load depends on time
   std::vector<Term> terms_;
   /// Acceleration of each set's particles by spread and axis [m/s^2].
   std::vector<std::array<std::vector<PaddedArray<double>>, kSpreads>> values_;
   ScalarTransfer::Given given_;
   std::vector<NodalField> nodal_;                               ///< load of each node in this step, for each field [N]
   NodalField beside_ = NodalField(dim_, nodes_of_block(dim_));  ///< loads of the second spread, if there are two [N]
+  NodalField around_ = NodalField(dim_, nodes_of_block(dim_));  ///< loads of the particles of one block [N]
   std::vector<ByKind> sums_;
   FirstFault fault_;
   std::array<bool, kKinds> there_{};
@@ -224,9 +284,11 @@ class ParticleLoads final : public Stage {
 
 }  // namespace
 
-std::unique_ptr<Stage> make_particle_loads(LoadTransfers transfers, Fields& fields, std::vector<ParticleSet>& sets,
-                                           const std::vector<ParticleLoadTerm>& terms, int threads) {
-  return std::make_unique<ParticleLoads>(std::move(transfers), fields, sets, terms, threads);
+std::unique_ptr<ParticleLoadStage> make_particle_loads(LoadTransfers transfers, Fields& fields,
+                                                       std::vector<ParticleSet>& sets,
+                                                       const std::vector<ParticleLoadTerm>& terms, int threads,
+                                                       double gravity) {
+  return std::make_unique<ParticleLoads>(std::move(transfers), fields, sets, terms, threads, gravity);
 }
 
 }  // namespace mpm

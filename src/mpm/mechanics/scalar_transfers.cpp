@@ -1,6 +1,7 @@
 #include "mpm/mechanics/scalar_transfers.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "mpm/grid/for_nodes.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
@@ -69,7 +70,44 @@ class ScalarTransferOf final : public ScalarTransfer {
     for (const int field : choice_->chosen()) add_of_others(halo_, field, to[field]);
   }
 
+  void spread_of_block(int field, int owner, const Given& of, Weight weight, NodalField& around) override {
+    give_around(field, owner, of, around, [&](const mpm_kernel::BlockView& block) {
+      kernels_.spread(view_, block, views_.data(), arrays_.data(), count(), around.components(), weight == Weight::mass,
+                      around.data());
+    });
+  }
+
+  void spread_gradient_of_block(int field, int owner, const Given& of, Weight weight, NodalField& around) override {
+    give_around(field, owner, of, around, [&](const mpm_kernel::BlockView& block) {
+      kernels_.spread_gradient(view_, block, views_.data(), arrays_.data(), count(), around.components(),
+                               weight == Weight::mass, around.data());
+    });
+  }
+
+  void gradient_of_block(int field, int owner, const NodalField& from, const Taken& to) override {
+    Grid& grid = *fields_[field];
+    look_at(grid);
+    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
+    kernels_.gradient(view_, view_of(grid, owner), views_.data(), arrays_.data(), count(), from.block(0));
+  }
+
  private:
+  // pass(block), whose neighbours are the blocks of `around`.
+  template <class Pass>
+  void give_around(int field, int owner, const Given& of, NodalField& around, Pass&& pass) {
+    Grid& grid = *fields_[field];
+    look_at(grid);
+    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
+    const int blocks = neighbours_of(grid.layout.dim());
+    std::array<int, 27> places{};
+    std::iota(places.begin(), places.end(), 0);
+    around.resize(blocks);
+    std::fill_n(around.data(), around.size(), 0.0);
+    mpm_kernel::BlockView block = view_of(grid, owner);
+    block.neighbours = places.data();
+    pass(block);
+  }
+
   void diffuse_in_patches(const Given& conducts, const std::vector<NodalField>& from, std::vector<NodalField>& to) {
     Grid& patches = choice_->grid();
     NodalField &source = own_[0], &sink = flow_;

@@ -96,8 +96,10 @@ void add_conditions(RunParts& parts) {
     const WallKind kind = definition.walls[name].kind;
     if (kind == WallKind::slip || kind == WallKind::symmetry) slip.push_back({face, kWallNames[name]});
   });
-  parts.add_in_fields(
-      [&] { return std::make_unique<VelocityConditions>(definition.conditions, slip, parts.layout()); });
+  for (int field = 0; field < parts.map.count(); ++field) {
+    auto conditions = std::make_unique<VelocityConditions>(definition.conditions, slip, parts.layout(), field);
+    parts.rest_partners.push_back(&parts.modules.add_in_field(std::move(conditions), field));
+  }
 }
 
 }  // namespace mpm

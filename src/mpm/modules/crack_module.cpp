@@ -96,9 +96,10 @@ void add_cracks(RunParts& parts) {
   made->jumps = std::make_unique<FieldJumps>(parts.fields, asked.length);
   made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, *made->jumps, parts.map,
                                                grouping, definition.method.shape, parts.threads, parts.ranks);
+  // Contours and what lies ahead of tips, with the nodes around them.
+  const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);
+  made->reach = reach;
   if (parts.halo != nullptr) {
-    // Contours and what lies ahead of tips, with the nodes around them.
-    const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);
     parts.halo->add_everywhere(
         [chosen = made->chosen.get(), reach](const std::array<int, 3>& block) { return chosen->near(block, reach); });
   }
@@ -132,7 +133,7 @@ void add_cracks(RunParts& parts) {
   }
   parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, make_sides(),
                                                    parts.volumes(), definition.geometry, parts.threads, parts.heat));
-  parts.modules.add(std::make_unique<CrackStage>(std::move(made)));
+  parts.rest_partners.push_back(&parts.modules.add(std::make_unique<CrackStage>(std::move(made))));
 }
 
 }  // namespace mpm

@@ -141,7 +141,9 @@ void add_particle_loads(RunParts& parts) {
   }
   if (terms.empty()) return;
   LoadTransfers transfers{parts.make_transfer(definition.method.shape), parts.make_transfer(ShapeKind::dirac)};
-  parts.modules.add(make_particle_loads(std::move(transfers), parts.fields, sets, terms, parts.threads));
+  const double gravity = definition.gravity.norm();
+  parts.rest_partners.push_back(
+      &parts.modules.add(make_particle_loads(std::move(transfers), parts.fields, sets, terms, parts.threads, gravity)));
 }
 
 void add_tractions(RunParts& parts) {
@@ -153,7 +155,8 @@ void add_tractions(RunParts& parts) {
   if (terms.empty()) return;
   const FaceSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.choice,
                               parts.halo};
-  parts.modules.add(std::make_unique<FaceTractions>(settings, parts.fields, parts.sets, std::move(terms)));
+  parts.rest_partners.push_back(&parts.modules.add(std::make_unique<FaceTractions>(
+      settings, parts.fields, parts.sets, std::move(terms), definition.gravity.norm())));
 }
 
 }  // namespace mpm

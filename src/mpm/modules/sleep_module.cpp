@@ -6,6 +6,16 @@ namespace mpm {
 
 void add_sleep(RunParts& parts) {
   if (!parts.definition.sleep) return;
+  const bool averaged = parts.definition.method.average_dilatation;
+  if (averaged && parts.ranks != nullptr) {
+    throw DefinitionError(
+        "sleep: beside averaged dilatation it runs in one process; start one, or leave out method.average_dilatation");
+  }
+  if (averaged && parts.definition.transport.find(Transported::pore_pressure) != nullptr) {
+    throw DefinitionError(
+        "sleep: beside water in pores dilatation is not averaged over what is asleep; leave out "
+        "method.average_dilatation");
+  }
   SleepParts needed{parts.fields,
                     parts.sets,
                     parts.bodies,
@@ -13,7 +23,9 @@ void add_sleep(RunParts& parts) {
                     parts.definition.gravity,
                     parts.threads,
                     parts.definition.method.update == UpdateScheme::implicit,
-                    parts.halo};
+                    averaged,
+                    parts.halo,
+                    parts.rest_partners};
   parts.sleep = &parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
 }
 

@@ -120,12 +120,27 @@ void couple_heat(TransportedField& temperature, RunParts& parts, GeometryKind ge
   if (has_own) temperature.add(std::move(own));
 }
 
+void let_sleep(TransportedField& field, const RunParts& parts) {
+  const SleepDefinition& sleep = *parts.definition.sleep;
+  const std::optional<double> changes[] = {sleep.temperature, sleep.concentration,
+                                           sleep.pore_pressure};  // in the order of Transported
+  try {
+    field.let_sleep(changes[static_cast<int>(field.quantity())], sleep.after);
+  } catch (const TransportError& error) {
+    throw DefinitionError(error.what());
+  }
+}
+
 }  // namespace
 
 void add_transport(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   const TransportDefinition& asked = definition.transport;
   if (asked.quantities.empty()) return;
+  if (definition.sleep && parts.ranks != nullptr) {
+    throw DefinitionError(
+        "transport: beside sleep it runs in one process; start one, or leave one of the two sections out");
+  }
   TransportParts shared{parts.fields,
                         parts.sets,
                         definition.geometry,
@@ -168,10 +183,11 @@ void add_transport(RunParts& parts) {
       const bool averaged = definition.method.average_dilatation;
       transport->add(std::make_unique<PoreWater>(*field, shared, parts.make_transfer(shape), averaged));
     }
+    if (definition.sleep) let_sleep(*field, parts);
     transport->add(std::move(field));
   }
   transport->prepare_expansion();
-  parts.modules.add(std::move(transport));
+  parts.rest_partners.push_back(&parts.modules.add(std::move(transport)));
 }
 
 }  // namespace mpm

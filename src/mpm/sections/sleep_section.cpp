@@ -11,9 +11,11 @@
 namespace mpm {
 namespace {
 
-constexpr double kOfFall = 0.01;    ///< default speed: of that after a free fall of half a cell
-constexpr double kWake = 3.0;       ///< default of `wake`, in speeds
-constexpr double kFromMotion = 10;  ///< ratio by which what the scene moves on purpose has to be faster
+constexpr double kOfFall = 0.01;      ///< default speed: of that after a free fall of half a cell
+constexpr double kWake = 3.0;         ///< default of `wake`, in speeds
+constexpr double kWithoutEnd = 10.0;  ///< time over which a condition is looked at where a run has no end [s]
+constexpr int kLooks = 100;           ///< at a condition, over the run
+constexpr double kFromMotion = 10;    ///< ratio by which what the scene moves on purpose has to be faster
 
 /// The highest speed of a body at the start, at the corners and the middle of its bounds.
 double speed_of(const BodyDefinition& body) {
@@ -34,6 +36,22 @@ double speed_of(const BodyDefinition& body) {
   return highest;
 }
 
+/// The highest speed of a condition over the run, in the middle of its region.
+double speed_of(const ConditionDefinition& condition, const SimulationDefinition& definition) {
+  if (!condition.velocity) return tool_motion(condition.region, definition).fastest;
+  const Vec3 place = RigidBody(condition.region).world_bounds().center();
+  const double end = definition.time.end > 0.0 ? definition.time.end : kWithoutEnd;
+  double highest = 0.0;
+  for (int i = 0; i <= kLooks; ++i) {
+    try {
+      highest = std::max(highest, std::abs((*condition.velocity)(end * i / kLooks, place)));
+    } catch (const FunctionError&) {
+      continue;  // the run says so
+    }
+  }
+  return highest;
+}
+
 void check_motion(const Value& where, const Scene& scene) {
   const SleepDefinition& sleep = *scene.definition.sleep;
   const auto refuse = [&](const std::string& what, double speed) {
@@ -45,6 +63,11 @@ void check_motion(const Value& where, const Scene& scene) {
   for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) {
     const double speed = tool_motion(body, scene.definition).fastest;
     if (speed > 0.0 && speed < kFromMotion * sleep.speed) refuse(fmt::format("rigid body '{}'", body.name), speed);
+  }
+  for (const ConditionDefinition& condition : scene.definition.conditions) {
+    const double speed = speed_of(condition, scene.definition);
+    if (speed > 0.0 && speed < kFromMotion * sleep.speed)
+      refuse(fmt::format("condition '{}'", condition.region.name), speed);
   }
   for (const BodyDefinition& body : scene.bodies) {
     const double speed = speed_of(body);

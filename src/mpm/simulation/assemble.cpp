@@ -151,7 +151,8 @@ std::unique_ptr<ScalarTransfer> RunParts::make_transfer(ShapeKind shape) {
 std::unique_ptr<BlockProbe> RunParts::make_probe() {
   const MethodDefinition& method = definition.method;
   return with_precision(method.precision, [&](auto zero) {
-    return make_block_probe(kernel_table<decltype(zero)>(method.shape, definition.geometry, isa), fields, sets, laws);
+    return make_block_probe(kernel_table<decltype(zero)>(method.shape, definition.geometry, isa), fields, sets, laws,
+                            method.average_dilatation, threads);
   });
 }
 

@@ -15,6 +15,7 @@ constexpr SleepPace kExplicit{8, 4, 8};
 constexpr SleepPace kImplicit{1, 1, 1};  // steps, of which one costs as much as many of the others
 constexpr int kWorthThreads = 1000;      ///< nodes
 constexpr double kAtOnce = 3.0;          ///< times `wake`, from which on a block wakes after this step
+constexpr double kFromRest = 0.1;        ///< part of `balance` by which a load may change in `after`, to fall asleep
 constexpr double kSlowNodes = 4.0;       ///< times the speed of sleep, below which nodes are damped
 
 }  // namespace
@@ -24,7 +25,7 @@ Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
       parts_(std::move(parts)),
       pace_(parts_.implicit ? kImplicit : kExplicit),
       layout_(parts_.fields.front()->layout),
-      asleep_(parts_.sets, layout_),
+      asleep_(parts_.sets, layout_, parts_.averaged),
       watch_(definition.speed, definition.after),
       borders_(parts_.fields.size(), SleepBorder(layout_)) {
   account_.name = "sleep";
@@ -60,8 +61,11 @@ void Sleep::look(const StepContext& context) {
   for (const auto& [name, block] : asleep_.all()) {
     if (tool_near(layout_.block(name.key), context.dt) || other_near(name.field, name.key)) to_wake_.push_back(name);
   }
+  if (!parts_.partners.empty()) ask_partners(context);
   if (across_) across_->add_met(to_wake_);
   watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
+  const RestTimes times{std::max(0.0, context.start - definition_.after), context.start,
+                        context.start + ahead_of_looks() * context.dt, kFromRest * definition_.balance};
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     const Grid& grid = *parts_.fields[f];
     for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
@@ -69,19 +73,10 @@ void Sleep::look(const StepContext& context) {
       const int block = grid.blocks.owner_block(owner);
       const BlockName name{static_cast<int>(f), grid.blocks.key(block)};
       if (tool_near(grid.blocks.block(block), context.dt) || other_near(name.field, name.key)) continue;
-      sleepers_.push_back({name, grid.first_owner + owner, 0.0, nullptr});
+      if (is_kept_awake(awake_block(name.field, owner), times)) continue;
+      sleepers_.push_back({name, grid.first_owner + owner, 0.0, 0.0, nullptr});
     }
   }
-}
-
-void Sleep::body_put(const RigidBody&) {
-  for (const auto& [name, block] : asleep_.all()) {
-    if (tool_near(layout_.block(name.key), 0.0)) to_wake_.push_back(name);
-  }
-  if (to_wake_.empty()) return;
-  sort_names(to_wake_);
-  leave_what_stays();
-  at_once_ = !to_wake_.empty();
 }
 
 void Sleep::follow_sort(const StepContext& context) {
@@ -97,8 +92,16 @@ void Sleep::follow_sort(const StepContext& context) {
   for (std::size_t f = 0; f < borders_.size(); ++f) {
     Grid& grid = *context.fields[f];
     borders_[f].find(static_cast<int>(f), grid, asleep_, parts_.halo);
+    for (SleepBorder::Node& node : borders_[f].nodes()) {
+      for (const RestPartner* partner : parts_.partners)
+        node.at_wall = node.at_wall || partner->holds(static_cast<int>(f), node.ref);
+    }
     grid.at_rest.clear();
-    for (const SleepBorder::Node& node : borders_[f].nodes()) grid.at_rest.push_back(node.ref);
+    grid.means_at_rest.clear();
+    for (const SleepBorder::Node& node : borders_[f].nodes()) {
+      grid.at_rest.push_back(node.ref);
+      if (parts_.averaged) grid.means_at_rest.push_back({node.ref, node.mass, node.stress});
+    }
   }
 }
 
@@ -288,53 +291,9 @@ void Sleep::strike_what_sets_off(StepContext& context) {
 void Sleep::grid_advanced(StepContext& context) {
   if (!begun_ && definition_.from_start) strike_what_sets_off(context);
   begun_ = true;
+  now_ = context.start + context.dt;
   account_.add(given_ - asleep_.mass() * context.dt * parts_.gravity);
   given_.setZero();
-}
-
-// Does nothing in the sort after another number of ranks has read a checkpoint: nobody sleeps or wakes for it.
-void Sleep::before_sort() {
-  asleep_.follow_moves();
-  if (just_read_) return;
-  asleep_.trust_order();
-  watch_.forget_rest();
-  const bool any = !sleepers_.empty() || !to_wake_.empty();
-  bool falls = false;
-  if (across_ == nullptr && !any) return;
-  const auto leave = [this](auto&& is_out) {
-    sleepers_.erase(std::remove_if(sleepers_.begin(), sleepers_.end(), is_out), sleepers_.end());
-  };
-  // A block that particles have left holds them under the wrong name, and those put around a periodic axis are far off.
-  leave([&](const SleepingBlocks::Sleeper& sleeper) {
-    const Grid& grid = *parts_.fields[sleeper.name.field];
-    return grid.loose[sleeper.owner - grid.first_owner] != 0;
-  });
-  if (across_) {
-    std::vector<BlockName> falling;
-    for (const SleepingBlocks::Sleeper& sleeper : sleepers_) falling.push_back(sleeper.name);
-    const SleepAcrossRanks::Agreed agreed = across_->agree(any, falling, to_wake_);
-    if (!agreed.any) return;
-    falls = agreed.falls;
-  }
-  leave([&](const SleepingBlocks::Sleeper& sleeper) {
-    return std::binary_search(to_wake_.begin(), to_wake_.end(), sleeper.name);
-  });
-  if (!across_) falls = !sleepers_.empty();
-  fall_asleep();
-  for (const BlockName& name : to_wake_) asleep_.wake(name);
-  if (falls || !to_wake_.empty()) asleep_.forget_order();
-  if (none_asleep()) asleep_.forget_rate();
-  sleepers_.clear();
-  to_wake_.clear();
-  looks_waited_ = steps_waited_ = 0;
-  at_once_ = false;
-}
-
-void Sleep::share_memory(Communicator&) {
-  asleep_.follow_moves();
-  if (just_read_) return;  // done when all has been read
-  watch_.hand_over(*parts_.halo);
-  across_->meet(borders_);
 }
 
 void Sleep::energies(EnergyReport& report) const {
@@ -377,6 +336,7 @@ void Sleep::serialise(StateArchive& archive) {
   archive.list("waited", waited);
   archive.value("steps", steps_);
   archive.value("begun", begun_);
+  archive.value("now", now_);
   account_.serialise(archive);
   archive.sum("energy", energy_);
   archive.sum("damped", damped_);

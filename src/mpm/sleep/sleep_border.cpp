@@ -85,6 +85,7 @@ void SleepBorder::add_block(int block, const Grid& grid) {
       if (!(forces.mass[shared.of_tile] > grid.least_mass)) continue;
       Node& node = of_block_[shared.node];
       node.mass += forces.mass[shared.of_tile];
+      node.stress += forces.stress[shared.of_tile];
       for (int k = 0; k < layout_->dim(); ++k) node.force[layout_->axis(k)] += forces.force[k][shared.of_tile];
       node.rate = std::max(node.rate, around_[side]->rate);
       node.from |= 1U << side;

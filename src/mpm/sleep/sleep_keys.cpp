@@ -22,6 +22,15 @@ const KeyTable<SleepDefinition>& sleep_keys() {
                "nodes slower than 4 `speed` lose this part of the force without balance where it drives them on, and "
                "gain it where it slows them; less, the nearer they are to 4 `speed`",
                "0.3"}),
+       number("temperature", &Sleep::temperature, kTemperature, kPositive,
+              {"a thousandth of the range of the values that the scene gives",
+               "change at the border of a block that wakes it; a block that changes by it in the time in which heat "
+               "crosses it does not fall asleep",
+               "0.1 K"}),
+       number("concentration", &Sleep::concentration, kPlain, kPositive,
+              {"as `temperature`", "the same of a concentration", "1e-3"}),
+       number("pore_pressure", &Sleep::pore_pressure, kPressure, kPositive,
+              {"as `temperature`", "the same of the pressure of water in pores", "50 Pa"}),
        plain("from_start", &Sleep::from_start,
              {"", "what is at rest when the run begins sleeps after the first step; for soil that starts `geostatic`",
               "true"})});

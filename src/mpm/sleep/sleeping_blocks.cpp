@@ -101,6 +101,7 @@ TakenMotion SleepingBlocks::put_to_sleep(const std::vector<Sleeper>& sleepers) {
   std::vector<SleepingBlock*> blocks;
   for (const Sleeper& sleeper : sleepers) {
     SleepingBlock& block = this->block(sleeper.name);
+    if (block.mass == 0.0) block.since = sleeper.since;
     block.rate = std::max(block.rate, sleeper.rate);
     rate_ = std::max(rate_, sleeper.rate);
     block.forces.add(*sleeper.forces);  // material that came to rest where some was asleep adds to it
@@ -249,12 +250,13 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
   std::sort(blocks.begin(), blocks.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
   std::vector<int> fields;
   std::vector<std::uint64_t> keys;
-  std::vector<double> rates, masses;
+  std::vector<double> rates, masses, since;
   for (const SleepingBlock* block : blocks) {
     fields.push_back(block->name.field);
     keys.push_back(block->name.key);
     rates.push_back(block->rate);
     masses.push_back(block->mass);
+    since.push_back(block->since);
   }
   const StateArchive::Group group(archive, "blocks");
   {
@@ -263,6 +265,7 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
     archive.list("key", keys);
     archive.list("rate", rates);
     archive.list("mass", masses);
+    archive.list("since", since);
   }
   if (archive.reading()) {
     by_name_.clear();
@@ -270,24 +273,29 @@ void SleepingBlocks::serialise_blocks(StateArchive& archive) {
     for (std::size_t b = 0; b < keys.size(); ++b) {
       SleepingBlock& read = block({fields[b], keys[b]});
       read.rate = std::max(read.rate, rates[b]);
+      read.since = since[b];
       if (!archive.merging()) read.mass = masses[b];
     }
   }
   const StateArchive::Share share(archive, BlockForces::kMostNodes);
   std::vector<float> values;
-  for (int c = 0; c <= layout_.dim(); ++c) {  // the masses, then the forces along each axis
+  const auto numbers = [&](const std::string& name, auto&& of_tile) {
     values.clear();
     for (const SleepingBlock* block : blocks) {
-      const auto& of_tile = c == 0 ? block->forces.mass : block->forces.force[c - 1];
-      values.insert(values.end(), of_tile.begin(), of_tile.end());
+      const auto& own = *of_tile(block->forces);
+      values.insert(values.end(), own.begin(), own.end());
     }
-    archive.list(c == 0 ? "given_mass" : "given_force" + std::to_string(c - 1), values);
+    archive.list(name, values);
     for (std::size_t b = 0; b < keys.size() && archive.reading(); ++b) {
-      BlockForces& forces = block({fields[b], keys[b]}).forces;
-      auto& of_tile = c == 0 ? forces.mass : forces.force[c - 1];
-      for (int t = 0; t < BlockForces::kMostNodes; ++t) of_tile[t] += values[b * BlockForces::kMostNodes + t];
+      auto& own = *of_tile(block({fields[b], keys[b]}).forces);
+      for (int t = 0; t < BlockForces::kMostNodes; ++t) own[t] += values[b * BlockForces::kMostNodes + t];
     }
+  };
+  numbers("given_mass", [](auto& forces) { return &forces.mass; });
+  for (int k = 0; k < layout_.dim(); ++k) {
+    numbers("given_force" + std::to_string(k), [k](auto& forces) { return &forces.force[k]; });
   }
+  if (averaged_) numbers("given_stress", [](auto& forces) { return &forces.stress; });
 }
 
 // Makes those asleep the last ones: they are scattered where the particles of several ranks are read as one list.

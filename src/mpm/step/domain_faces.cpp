@@ -71,6 +71,17 @@ FaceParts DomainFaces::parts(int set, int particle, DomainFace face) const {
   return parts;
 }
 
+FaceParts DomainFaces::parts_of_box(int set, int particle, DomainFace face) const {
+  const ParticleSet& own = sets_[set];
+  PlacedDomain box;
+  box.dim = layout().dim();
+  for (int k = 0; k < box.dim; ++k) {
+    box.center[k] = own.x[k][particle];
+    box.d[k][k] = own.half[k] * layout().cell(k);
+  }
+  return face_parts(settings_.geometry, box, face, settings_.across);
+}
+
 namespace {
 
 /// `find(numbers of a node)`: its field and place there, block -1 if it is not there or carries nothing.

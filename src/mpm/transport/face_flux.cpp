@@ -22,7 +22,15 @@ double flux(const FluxDefinition& of, double given, double there) {
 FaceFlux::FaceFlux(const FaceSettings& settings, const Fields& fields, const std::vector<ParticleSet>& sets,
                    std::vector<FluxTerm> terms)
     : faces_(settings, fields, sets), fields_(fields), sets_(sets), terms_(std::move(terms)), halo_(settings.halo) {
-  for (const FluxTerm& term : terms_) accounts_.push_back({term.definition.name, 0.0, 0.0});
+  fed_.resize(sets.size());
+  for (const FluxTerm& term : terms_) {
+    accounts_.push_back({term.definition.name, 0.0, 0.0});
+    std::vector<char>& fed = fed_[term.set];
+    for (const std::uint32_t id : term.particles) {
+      if (id >= fed.size()) fed.resize(id + 1, 0);
+      fed[id] = 1;
+    }
+  }
   if (halo_ != nullptr) own_.assign(fields.size(), NodalField(1, faces_.layout().nodes_per_block()));
 }
 
@@ -56,7 +64,7 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
     double content = 0.0;
     for (const std::uint32_t id : term.particles) {
       const int p = id < place_of_.size() ? place_of_[id] : -1;
-      if (p < 0) continue;  // on another rank
+      if (p < 0 || p >= set.awake()) continue;  // on another rank
       const FaceParts parts = faces_.parts(term.set, p, term.face);
       Vec3 middle = Vec3::Zero();
       for (int k = 0; k < faces_.layout().dim(); ++k) middle[faces_.layout().axis(k)] = parts.middle[k];
@@ -89,6 +97,15 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
     accounts_[i].add(content);
   }
   add_own(nodes);
+}
+
+bool FaceFlux::feeds(const RestingBlock& block) const {
+  bool any = false;
+  block.each(sets_, [&](std::size_t s, int p) {
+    const std::uint32_t id = sets_[s].id[p] - sets_[s].first_id;
+    any = any || (id < fed_[s].size() && fed_[s][id] != 0);
+  });
+  return any;
 }
 
 double FaceFlux::conductance(double most) const {

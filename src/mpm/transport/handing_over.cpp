@@ -25,6 +25,14 @@ void TransportedField::sharpen() {
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     NodalQuantity& nodes = nodes_[f];
     spread_scratch(static_cast<int>(f), volume_);
+    if (rest_) {
+      for (const ContentAtRest::Shared& shared : rest_->shared(static_cast<int>(f))) {
+        if (!shared.active) continue;
+        const NodeRef node = shared.node;
+        volume_.at(node.block, 0, node.node) +=
+            shared.tile->capacity[shared.at] * nodes.source.at(node.block, 0, node.node);
+      }
+    }
     for_nodes("transport: changes", *parts_.fields[f], parts_.threads, [&](int b, int n) {
       const double capacity = nodes.capacity.at(b, 0, n);
       double& change = nodes.source.at(b, 0, n);
@@ -39,7 +47,13 @@ void TransportedField::finish(double start, double dt, bool sees) {
   const std::size_t sets = parts_.sets.size(), fields = parts_.fields.size();
   if (by_volume) {
     fill(Number::volume);
-    for (std::size_t f = 0; f < fields; ++f) spread_scratch(static_cast<int>(f), rooms_[f]);
+    for (std::size_t f = 0; f < fields; ++f) {
+      spread_scratch(static_cast<int>(f), rooms_[f]);
+      for (std::size_t i = 0; rest_ && i < rest_->shared(static_cast<int>(f)).size(); ++i) {
+        const ContentAtRest::Shared& shared = rest_->shared(static_cast<int>(f))[i];
+        if (shared.active) rooms_[f].at(shared.node.block, 0, shared.node.node) += shared.tile->room[shared.at];
+      }
+    }
   }
   for (std::size_t s = 0; s < sets; ++s) taken_[s] = {scratch_[s][0].data()};
   for (std::size_t f = 0; f < fields; ++f) {
@@ -59,7 +73,7 @@ void TransportedField::finish(double start, double dt, bool sees) {
   for (std::size_t s = 0; s < sets; ++s) {
     const ParticleSet& set = parts_.sets[s];
     PaddedArray<double>& held = carried(static_cast<int>(s));
-    const double* change = scratch_[s][0].data();
+    double* change = scratch_[s][0].data();
     const auto take = [&](int first, int last, double& sum) {
       double capacity[kGainGroup], j[kGainGroup];
       find_capacities(static_cast<int>(s), first, last, capacity);
@@ -68,10 +82,15 @@ void TransportedField::finish(double start, double dt, bool sees) {
         const double c = capacity[p - first];
         const double gain = by_volume ? change[p] * j[p - first] / (parts_.densities[s] * c) : change[p];
         held[p] += gain;
+        if (by_volume) change[p] = gain;
         sum += set.mass_of(p) * c * gain;
       }
     };
     gained_ = sum_groups("transport: changes", set, parts_.threads, sums_, gained_, take);
+  }
+  if (rest_) {
+    for (std::size_t f = 0; f < fields; ++f) keep_for_rest(static_cast<int>(f));
+    watch_rest(start + dt, dt);
   }
   for (std::size_t s = 0; s < sets; ++s) taken_[s] = {values(static_cast<int>(s)).data()};
   for (std::size_t f = 0; f < fields && sees; ++f) transfer_->gather(static_cast<int>(f), nodes_[f].value, taken_);

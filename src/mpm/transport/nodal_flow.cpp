@@ -65,13 +65,15 @@ void TransportedField::spread_scratch(int field, NodalField& to) {
   transfer_->spread(field, given_, ScalarTransfer::Weight::mass, to);
 }
 
-void TransportedField::find_nodal_values() {
+double TransportedField::find_nodal_values(bool moved) {
   const int fields = static_cast<int>(nodes_.size());
-  if (!one_capacity_) {
+  const bool by_mass = one_capacity_ && !moved;
+  if (!by_mass) {
     fill(Number::capacity);
     for (int f = 0; f < fields; ++f) spread_scratch(f, nodes_[f].capacity);
   }
   fill(Number::content);
+  double flowed = 0.0;
   for (int f = 0; f < fields; ++f) {
     const Grid& grid = *parts_.fields[f];
     NodalQuantity& nodes = nodes_[f];
@@ -80,12 +82,14 @@ void TransportedField::find_nodal_values() {
     nodes.capacity.resize(grid.blocks.size());
     for_nodes("transport: values of nodes", grid, parts_.threads, [&](int b, int n) {
       double& capacity = nodes.capacity.at(b, 0, n);
-      if (one_capacity_) capacity = *one_capacity_ * grid.mass.at(b, 0, n);
+      if (by_mass) capacity = *one_capacity_ * grid.mass.at(b, 0, n);
       if (!grid.carries(b, n)) capacity = 0.0;
       nodes.value.at(b, 0, n) = capacity > 0.0 ? nodes.value.at(b, 0, n) / capacity : 0.0;
       nodes.source.at(b, 0, n) = 0.0;
     });
+    if (rest_) flowed += join_at_rest(f);
   }
+  return flowed;
 }
 
 double TransportedField::prescribed(const Held& held, double time) const {

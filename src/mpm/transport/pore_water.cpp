@@ -89,6 +89,8 @@ PoreWater::PoreWater(TransportedField& pressure, const TransportParts& parts, st
       averaged_(averaged),
       force_(parts.fields.front()->layout.dim(), parts.fields.front()->layout.nodes_per_block()),
       part_(1, parts.fields.front()->layout.nodes_per_block()),
+      around_(force_),
+      one_around_(part_),
       push_(parts.sets.size()),
       pushes_(parts.sets.size()),
       by_axis_(parts.sets.size()),
@@ -136,36 +138,41 @@ void PoreWater::average() {
 }
 
 void PoreWater::push_rows(int set, int axis) {
+  for_particle_groups("pore water: pressure", parts_.sets[set], kGainGroup, parts_.threads,
+                      [&](int first, int end, int) { push_rows(set, axis, first, end); });
+  by_axis_[set] = {};
+  for (int c = 0; c < parts_.fields.front()->layout.dim(); ++c) by_axis_[set][c] = push_[set][c].data();
+}
+
+void PoreWater::push_rows(int set, int axis, int first, int end) {
   const ParticleSet& of = parts_.sets[set];
   const GridLayout& layout = parts_.fields.front()->layout;
   const Symmetric3<double>& a = pressure_.material(set).biot;
   const double rows[3][3] = {{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}};
   const double* row = rows[layout.axis(axis)];
   const PaddedArray<double>& pressure = pressure_.carried(set);
-  by_axis_[set] = {};
   for (int c = 0; c < layout.dim(); ++c) {
     double* push = push_[set][c].data();
     const double part = row[layout.axis(c)] / parts_.densities[set];
-    for_particle_groups("pore water: pressure", of, kGainGroup, parts_.threads, [&](int first, int end, int) {
-      find_volume_ratios(of, parts_.geometry, first, end, push + first);
-      for (int p = first; p < end; ++p) push[p] *= part * pressure[p];
-    });
-    by_axis_[set][c] = push_[set][c].data();
+    find_volume_ratios(of, parts_.geometry, first, end, push + first);
+    for (int p = first; p < end; ++p) push[p] *= part * pressure[p];
   }
 }
 
 void PoreWater::push_hoop(int set) {
-  const ParticleSet& of = parts_.sets[set];
   auto& push = push_[set];
   std::fill(push[1].begin(), push[1].end(), 0.0);
-  if (isotropic_) {
-    by_axis_[set] = {push[1].data(), push[1].data(), push[0].data()};
-    return;
-  }
-  find_volume_ratios(of, parts_.geometry, 0, of.awake(), push[2].data());
+  push_hoop(set, 0, parts_.sets[set].awake());
+  by_axis_[set] = {push[1].data(), push[1].data(), push[isotropic_ ? 0 : 2].data()};
+}
+
+void PoreWater::push_hoop(int set, int first, int end) {
+  if (isotropic_) return;
+  const ParticleSet& of = parts_.sets[set];
+  auto& push = push_[set];
+  find_volume_ratios(of, parts_.geometry, first, end, push[2].data() + first);
   const double part = pressure_.material(set).biot.yy / parts_.densities[set];
-  for (int p = 0; p < of.awake(); ++p) push[2][p] *= part * pressure_.carried(set)[p];
-  by_axis_[set] = {push[1].data(), push[1].data(), push[2].data()};
+  for (int p = first; p < end; ++p) push[2][p] *= part * pressure_.carried(set)[p];
 }
 
 // Particles may have come from other ranks and gone there.
@@ -245,6 +252,39 @@ void PoreWater::add_force(StepContext& context) {
       for (int n = 0; n < nodes && grid.counts(b); ++n) radial_ += part_.at(b, 0, n) * context.dt;
     }
   }
+}
+
+void PoreWater::add_forces(const RestingBlock& block, BlockForces& forces) {
+  const int dim = parts_.fields.front()->layout.dim(), at = block.first_owner + block.owner;
+  const auto each_set = [&](auto&& visit) {
+    for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+      const std::vector<std::uint32_t>& begin = parts_.sets[s].begin;
+      visit(static_cast<int>(s), static_cast<int>(begin[at]), static_cast<int>(begin[at + 1]));
+    }
+  };
+  const auto spread = [&](int axis) {
+    transfer_->spread_gradient_of_block(block.field, block.owner, by_axis_, ScalarTransfer::Weight::mass, one_around_);
+    add_around(one_around_, forces, axis);
+  };
+  if (isotropic_) {
+    each_set([&](int s, int, int) { pushes_[s] = {push_[s][0].data()}; });
+    transfer_->spread_gradient_of_block(block.field, block.owner, pushes_, ScalarTransfer::Weight::mass, around_);
+    add_around(around_, forces);
+  }
+  for (int k = 0; k < dim && !isotropic_; ++k) {
+    each_set([&](int s, int first, int end) {
+      push_rows(s, k, first, end);
+      for (int c = 0; c < 3; ++c) by_axis_[s][c] = c < dim ? push_[s][c].data() : nullptr;
+    });
+    spread(k);
+  }
+  if (!axisymmetric(parts_.geometry)) return;
+  each_set([&](int s, int first, int end) {
+    std::fill(push_[s][1].begin() + first, push_[s][1].begin() + end, 0.0);
+    push_hoop(s, first, end);
+    by_axis_[s] = {push_[s][1].data(), push_[s][1].data(), push_[s][isotropic_ ? 0 : 2].data()};
+  });
+  spread(0);
 }
 
 double PoreWater::stiffness(int set) const {

@@ -148,6 +148,11 @@ void Transport::grid_advanced(StepContext& context) {
   expands_for_ = arrives ? 0.0 : expands_for_ - context.dt;
 }
 
+bool Transport::stirs(const RestingBlock& block, const RestTimes& times) {
+  const auto field_stirs = [&](const auto& field) { return field->stirs(block, times.now); };
+  return std::any_of(fields_.begin(), fields_.end(), field_stirs);
+}
+
 void Transport::accounts(std::vector<ImpulseAccount>& list) const {
   if (water_ && axisymmetric(parts_.geometry)) list.push_back(hoop_);
 }
@@ -222,6 +227,7 @@ std::string Transport::limit_text(const StepLimit& limit) const {
 void Transport::hashed(std::vector<double>& numbers) const {
   numbers.insert(numbers.end(), waited_.begin(), waited_.end());
   numbers.push_back(expands_for_);
+  for (const auto& field : fields_) field->hashed(numbers);
   if (surface_ == nullptr) return;
   numbers.push_back(surface_->waiting());
   for (const ToolHeat& tool : surface_->tools()) numbers.push_back(tool.temperature);

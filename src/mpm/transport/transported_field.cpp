@@ -40,7 +40,8 @@ TransportedField::TransportedField(const QuantityDefinition& definition, const T
       stages_(parts.fields.front()->layout.nodes_per_block()),
       scratch_(parts.sets.size()),
       given_(parts.sets.size()),
-      taken_(parts.sets.size()) {
+      taken_(parts.sets.size()),
+      around_(1, parts.fields.front()->layout.nodes_per_block()) {
   const int nodes = parts_.fields.front()->layout.nodes_per_block();
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     nodes_.push_back({NodalField(1, nodes), NodalField(1, nodes), NodalField(1, nodes)});
@@ -184,7 +185,9 @@ void TransportedField::update(double start, double dt, bool reported) {
   ask_to_stop();
   if (flows_ || pending()) {
     fit_scratch();
-    find_nodal_values();
+    if (rest_) rest_->follow(parts_.fields);
+    const double flowed = find_nodal_values();
+    if (rest_) at_rest_.add(flowed * dt);
     find_held();
     add_volume_sources(start, dt);
     for (auto& source : sources_) source->give(nodes_, start, dt);
@@ -255,6 +258,7 @@ std::vector<ContentAccount> TransportedField::accounts() const {
   if (!definition_.values.empty()) list.push_back(prescribed_);
   if (!definition_.sources.empty()) list.push_back(volume_sources_);
   for (const auto& source : sources_) source->accounts(list);
+  if (rest_) list.push_back(at_rest_);
   return list;
 }
 
@@ -272,6 +276,12 @@ void TransportedField::serialise(StateArchive& archive) {
     const StateArchive::Group group(archive, "source_" + std::to_string(s));
     sources_[s]->serialise(archive);
   }
+  if (!rest_) return;
+  const StateArchive::Group group(archive, "at_rest");
+  account("asleep", at_rest_);
+  archive.value("updated", updated_);
+  rest_->serialise(archive);
+  if (archive.reading()) rests_since_ = 0;
 }
 
 }  // namespace mpm

@@ -23,10 +23,12 @@ namespace mpm {
 struct ContourValues {
   double gradient[2][2] = {};           ///< u_i,k; in the form of large strain F - I
   double hoop_gradient = 0.0;           ///< u_r / r about an axis; in the form of large strain u_r / R
-  double xx = 0.0, zz = 0.0, xz = 0.0;  ///< Cauchy stress [Pa]
+  double xx = 0.0, zz = 0.0, xz = 0.0;  ///< Cauchy stress, with water in pores the total one [Pa]
   double hoop = 0.0;                    ///< stress around the axis [Pa]
   double energy = 0.0;                  ///< W, work of the stress [J/m^3 of the present volume]
   double kinetic = 0.0;                 ///< K [J/m^3]
+  double free = 0.0;                    ///< free strain, lambda - 1 (tip_physics.hpp)
+  double pressure = 0.0;                ///< pressure of water in pores [Pa]
   Vec2 centre{0.0, 0.0};                ///< centre of the material that these are means of [m]
 
   /// (1 - part) a + part b
@@ -57,6 +59,8 @@ struct ContourPiece {
 
 /// Mean of (u_x,z - u_z,x) / 2 along the contour [1].
 double mean_rotation(const std::vector<ContourPiece>& pieces);
+/// Mean of (u_x,x + u_z,z) / 2 along the contour [1].
+double mean_growth(const std::vector<ContourPiece>& pieces);
 
 /// Lists the pieces of a complete path counter-clockwise, from the face where the path leaves the crack to the face
 /// where it comes back.

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "mpm/crack/contour_values.hpp"
+#include "mpm/crack/j_integral.hpp"
 #include "mpm/crack/stress_intensity.hpp"
 
 namespace mpm {
@@ -20,5 +20,10 @@ namespace mpm {
 /// @param direction unit vector in which the crack would grow straight on.
 StressIntensity interaction_integral(const ElasticConstants& constants, const Vec2& tip, const Vec2& direction,
                                      const std::vector<ContourPiece>& pieces);
+
+/// Term of a strain e* that brings no stress, int tr(sigma') de*/dx_1 dA times E' / 2 (tip_physics.hpp).
+/// @param samples particles inside the contour, which fill `area` [m^2]
+StressIntensity eigenstrain_term(const ElasticConstants& constants, const Vec2& tip, const Vec2& direction,
+                                 const std::vector<AreaSample>& samples, double area);
 
 }  // namespace mpm

@@ -19,6 +19,9 @@
 // the balance of momentum it adds nothing; but where a body turns far more than it strains, as beams do, its error of
 // quadrature was 3 to 6 % of J.
 //
+// Free strains and water in pores have an area term of their own (tip_physics.hpp). There the mean growth along the
+// contour is taken off the gradients too, for the same reason: a free strain may be far larger than that of the load.
+//
 // Weak: trapezoidal rule, with exact nodal values 1.4 % low for contours of two cells around the nearest node, 0.6 %
 // for three (test/unit/crack_j_integral_test.cpp). The area is summed over particles, scaled to fill the rectangle.
 // Source: crack reference 4.1 to 4.3, 4.6; Bergkvist and Huong (1977), Broberg (1987) about an axis. The form of J_z
@@ -38,6 +41,8 @@ struct JForm {
   double tip_radius = 0.0;    ///< radius of bergkvist_huong [m]; at large strain that of the undeformed body
   bool large_strain = false;  ///< gradients are F - I, energies are by present volume
   double rotation = 0.0;      ///< [1] taken off (u_x,z - u_z,x) / 2 of what tractions and inertia work on
+  double growth = 0.0;        ///< [1] taken off u_x,x and u_z,z of the same
+  double content = 0.0;       ///< [1] mean water content, whose pressure the contour carries (tip_physics.hpp)
   Vec2 low{0.0, 0.0};         ///< corners, for bergkvist_huong, of a square where the form of Broberg holds [m]
   Vec2 high{0.0, 0.0};
 
@@ -70,7 +75,15 @@ struct AreaSample {
   Vec2 velocity{0.0, 0.0};              ///< [m/s]
   double velocity_gradient[2][2] = {};  ///< v_i,k by present coordinates [1/s]
   ContourValues values;
+  /// Derivatives of the energy by its explicit place: (sigma'_ii - 3 Psi) lambda,k / lambda [J/m^4].
+  Vec2 free_force{0.0, 0.0};
+  double content = 0.0;              ///< water that the volume has taken in, zeta [1]
+  Vec2 pressure_slope{0.0, 0.0};     ///< [Pa/m]
+  Vec2 eigenstrain_slope{0.0, 0.0};  ///< slope of what stress intensities feel as a free strain [1/m]
 };
+
+/// Mean content by area; 0 without samples.
+double mean_content(const std::vector<AreaSample>& samples);
 
 /// The integral over an area [m^2] that the samples fill [J/m^2]; 0 without samples. `inertia`: with accelerations.
 Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double area, bool inertia = true);
@@ -84,6 +97,7 @@ struct JResult {
   double faces_work = 0.0;  ///< to take off for tractions on this crack's faces: traction_work(), friction_work()
   ContourCrossing crossing;
   double rotation = 0.0;  ///< JForm::rotation of these integrals; zero with `inertia` left out and about an axis
+  double growth = 0.0;    ///< JForm::growth of them; zero without free strain or pressure too
 
   Vec2 j() const { return contour + area + faces; }
   /// J of growth along a unit vector, without the work that tractions on the faces take up.
@@ -92,7 +106,9 @@ struct JResult {
 
 /// Contour and area of a tip: gathers the values of a path into `pieces` and integrates them.
 /// @param samples particles inside the path; empty: without the area.
+/// @param swells the body has free strains or water in pores
 JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
-                    const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces);
+                    const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces,
+                    bool swells = false);
 
 }  // namespace mpm

@@ -15,6 +15,7 @@
 #include "mpm/crack/contour_values.hpp"
 #include "mpm/crack/crack_fields.hpp"
 #include "mpm/crack/j_integral.hpp"
+#include "mpm/crack/tip_physics.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/ranks/communicator.hpp"
@@ -33,9 +34,10 @@ struct TipParts {
   GeometryKind geometry;
   double across;  ///< thickness of a planar scene [m]
   /// Energies at nodes follow from stress, strain and velocity there, as in linear elasticity; else they are means of
-  /// those of particles.
+  /// those of particles. Where something expands or is wet, W is that of particles in any case.
   bool grid_energy = false;
-  Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
+  std::vector<TipPhysics> physics = {};  ///< physics of each set; empty where nothing expands and no water is in pores
+  Communicator* ranks = nullptr;         ///< communicator of a run over several ranks; else null
 };
 
 class TipValues final : public ContourSource {
@@ -69,11 +71,20 @@ class TipValues final : public ContourSource {
     hoop_gradient,
     place_x,
     place_z,
+    free,
+    pressure,
+    content,
+    spare,
     kNumbers
   };
 
   template <class Get>
   static ContourValues values_of(Get&& number);
+  /// Adds what transport does to numbers of a particle: the total stress, and its energy.
+  void add_water(std::size_t set, std::uint32_t p, const Matrix3<double>& f, double j);
+  /// Finds the gradients of free strain and pressure at particles.
+  void find_slopes();
+  void add_physics(std::size_t set, std::uint32_t p, AreaSample& sample) const;
   void fill(std::size_t set, std::uint32_t first, std::uint32_t last);
   bool values_at(int field, NodeRef ref, ContourValues& values) const;
 
@@ -83,9 +94,12 @@ class TipValues final : public ContourSource {
   std::vector<std::array<PaddedArray<double>, kNumbers>> numbers_;        ///< numbers of each set's particles
   std::vector<std::array<PaddedArray<double>, 2>> acceleration_;          ///< acceleration of each set's particles
   std::vector<std::array<std::array<PaddedArray<double>, 2>, 2>> slope_;  ///< slope of the velocity
-  std::vector<std::vector<NodalField>> nodal_;                            ///< [field of the group][pair of numbers]
-  std::vector<std::vector<std::uint8_t>> marks_;                          ///< [field of the group][block]
-  NodalField component_;                                                  ///< component of a velocity
+  /// Gradients of the centres of material, and of free strain, pressure and content, where there are any.
+  std::vector<std::array<std::array<PaddedArray<double>, 2>, 5>> gradients_;
+  std::vector<PaddedArray<double>> traces_, energies_;  ///< tr sigma' and Psi of each set's particles
+  std::vector<std::vector<NodalField>> nodal_;          ///< [field of the group][pair of numbers]
+  std::vector<std::vector<std::uint8_t>> marks_;        ///< [field of the group][block]
+  NodalField component_;                                ///< component of a velocity
   std::vector<std::uint8_t> givers_;
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken taken_;

@@ -17,6 +17,8 @@ ContourValues ContourValues::between(const ContourValues& a, const ContourValues
   mean.hoop = mix(a.hoop, b.hoop);
   mean.energy = mix(a.energy, b.energy);
   mean.kinetic = mix(a.kinetic, b.kinetic);
+  mean.free = mix(a.free, b.free);
+  mean.pressure = mix(a.pressure, b.pressure);
   mean.centre = (1.0 - part) * a.centre + part * b.centre;
   return mean;
 }
@@ -25,6 +27,17 @@ namespace {
 
 constexpr double kAside = 0.05;  ///< part of an edge: centres nearer to it lie on it
 constexpr double kApart = 0.2;   ///< part of an edge that two centres on it are apart at least to give a slope
+
+/// Half the mean of twice_of(values) along the contour.
+template <class Get>
+double mean_of(const std::vector<ContourPiece>& pieces, Get&& twice_of) {
+  double sum = 0.0, length = 0.0;
+  for (const ContourPiece& piece : pieces) {
+    for (const ContourValues* values : {&piece.first, &piece.last}) sum += 0.5 * piece.length() * twice_of(*values);
+    length += 2.0 * piece.length();
+  }
+  return length > 0.0 ? sum / length : 0.0;
+}
 
 /// One side of the crack on the edge that it meets: at its face, and at the node on this side.
 struct Side {
@@ -53,14 +66,11 @@ Side side_of(const ContourValues* across, const ContourValues& own, const Vec2& 
 }  // namespace
 
 double mean_rotation(const std::vector<ContourPiece>& pieces) {
-  double sum = 0.0, length = 0.0;
-  for (const ContourPiece& piece : pieces) {
-    for (const ContourValues* values : {&piece.first, &piece.last}) {
-      sum += 0.5 * piece.length() * (values->gradient[0][1] - values->gradient[1][0]);
-    }
-    length += 2.0 * piece.length();
-  }
-  return length > 0.0 ? sum / length : 0.0;
+  return mean_of(pieces, [](const ContourValues& values) { return values.gradient[0][1] - values.gradient[1][0]; });
+}
+
+double mean_growth(const std::vector<ContourPiece>& pieces) {
+  return mean_of(pieces, [](const ContourValues& values) { return values.gradient[0][0] + values.gradient[1][1]; });
 }
 
 ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, const ContourSource& source,

@@ -152,8 +152,10 @@ void CrackTips::find(CrackTip& tip) {
   values_.gather(first, tip.crack, path_.low, path_.high);
   const bool inertia = settings_.contour.terms == 2;
   samples_.clear();
-  if (inertia || axisymmetric(parts_.geometry)) values_.find_samples(lines_, path_, samples_);
+  const bool swells = !parts_.physics.empty();
+  if (inertia || swells || axisymmetric(parts_.geometry)) values_.find_samples(lines_, path_, samples_);
   JForm form = form_of(chain, place);
+  if (swells) form.content = mean_content(samples_);
   Vec2 joining{0.0, 0.0};
   if (edge_.status == ContourStatus::complete) {
     if (gather_contour(lines_, edge_, values_, pieces_, false) == ContourStatus::complete) {
@@ -162,11 +164,12 @@ void CrackTips::find(CrackTip& tip) {
       form.low = form.high;
     }
   }
-  JResult result = integrate_j(form, lines_, path_, values_, samples_, inertia, pieces_);
+  JResult result = integrate_j(form, lines_, path_, values_, samples_, inertia, pieces_, swells);
   tip.status = result.status;
   if (result.status != ContourStatus::complete) return;
   result.contour += joining;
   form.rotation = result.rotation;
+  form.growth = result.growth;
   add_faces(tip, form, result);
   tip.zone = result.faces_work;
   tip.j = result.along(chain.direction(tip.end));
@@ -234,6 +237,12 @@ void CrackTips::split(CrackTip& tip) {
   const Chain& chain = cracks_[tip.crack].chain;
   tip.k =
       interaction_integral(elastic, chain.points()[chain.point_at(tip.end)].place, chain.direction(tip.end), pieces_);
+  if (!parts_.physics.empty()) {
+    const StressIntensity more =
+        eigenstrain_term(elastic, end_of(tip.crack, tip.end), chain.direction(tip.end), samples_, path_.area(lines_));
+    tip.k.one += more.one;
+    tip.k.two += more.two;
+  }
   // The shear of friction on faces inside the contour, which the auxiliary field of free faces leaves out: the work of
   // a traction on the jump of that field, (kappa + 1) / G sqrt(d / (2 pi)), times E' / 2 = 4 G / (kappa + 1).
   const Vec2 at = chain.points()[chain.point_at(tip.end)].place;

@@ -49,4 +49,24 @@ StressIntensity interaction_integral(const ElasticConstants& constants, const Ve
   return {half * sum.one, half * sum.two};
 }
 
+StressIntensity eigenstrain_term(const ElasticConstants& constants, const Vec2& tip, const Vec2& direction,
+                                 const std::vector<AreaSample>& samples, double area) {
+  Eigen::Matrix2d frame;
+  frame << direction[0], direction[1], -direction[1], direction[0];
+  const CrackTipField one({1.0, 0.0}, 0.0, constants), two({0.0, 1.0}, 0.0, constants);
+  StressIntensity sum;
+  double covered = 0.0;
+  for (const AreaSample& sample : samples) {
+    const Vec2 arm = frame * (sample.place - tip);
+    const double slope = sample.area * sample.eigenstrain_slope.dot(direction);
+    const auto trace = [&](const TipFieldValue& mode) { return mode.stress.trace() + mode.stress_out; };
+    sum.one += slope * trace(one.at(arm));
+    sum.two += slope * trace(two.at(arm));
+    covered += sample.area;
+  }
+  if (covered <= 0.0) return {};
+  const double scale = 0.5 * constants.plane_modulus() * area / covered;
+  return {scale * sum.one, scale * sum.two};
+}
+
 }  // namespace mpm

@@ -3,9 +3,9 @@
 namespace mpm {
 namespace {
 
-/// u_i,k without the rotation of the form.
+/// u_i,k without the rotation and the growth of the form.
 double turned_back(const JForm& form, const double (&gradient)[2][2], int i, int k) {
-  return gradient[i][k] - (k - i) * form.rotation;
+  return gradient[i][k] - (i == k ? form.growth : (k - i) * form.rotation);
 }
 
 /// rho (a_i u_i,k - v_i v_i,k), with derivatives by undeformed coordinates at large strain.
@@ -47,7 +47,8 @@ Vec2 ring_density(const JForm& form, const AreaSample& sample) {
   const ContourValues& values = sample.values;
   const double stretch = form.large_strain ? 1.0 + values.hoop_gradient : 1.0;
   if (form.kind_at(sample.place) == JForm::Kind::bergkvist_huong) {
-    const double density = stretch * (values.energy + values.kinetic) - values.hoop * values.hoop_gradient;
+    const double density = stretch * (values.energy + form.content * values.pressure + values.kinetic) -
+                           values.hoop * values.hoop_gradient;
     return {-density / form.tip_radius, 0.0};
   }
   double stress[2][2];
@@ -68,7 +69,7 @@ double weight_of(const JForm& form, const Vec2& place, const ContourValues& valu
 }
 
 Vec2 energy_flux(const JForm& form, const ContourValues& values, const Vec2& normal, const Vec2& traction) {
-  const double energy = values.energy + values.kinetic;
+  const double energy = values.energy + form.content * values.pressure + values.kinetic;
   const auto& g = values.gradient;
   Vec2 flux;
   for (int k = 0; k < 2; ++k) {
@@ -96,12 +97,23 @@ Vec2 joining_term(const JForm& form, const std::vector<ContourPiece>& edge) {
   return contour_term(inside, edge) - contour_term(outside, edge);
 }
 
+double mean_content(const std::vector<AreaSample>& samples) {
+  double sum = 0.0, covered = 0.0;
+  for (const AreaSample& sample : samples) {
+    sum += sample.area * sample.content;
+    covered += sample.area;
+  }
+  return covered > 0.0 ? sum / covered : 0.0;
+}
+
 Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double area, bool inertia) {
   Vec2 sum{0.0, 0.0};
   double covered = 0.0;
   for (const AreaSample& sample : samples) {
     covered += sample.area;
     if (inertia) sum += sample.area * weight_of(form, sample.place, sample.values) * inertia_density(form, sample);
+    sum += sample.area * weight_of(form, sample.place, sample.values) *
+           (sample.free_force + (sample.content - form.content) * sample.pressure_slope);
     if (form.about_axis()) sum += sample.area * ring_density(form, sample);
   }
   if (covered <= 0.0) return {0.0, 0.0};
@@ -109,7 +121,8 @@ Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double
 }
 
 JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
-                    const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces) {
+                    const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces,
+                    bool swells) {
   JResult result;
   result.status = path.status;
   if (path.status != ContourStatus::complete) return result;
@@ -117,7 +130,9 @@ JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path,
   if (result.status != ContourStatus::complete) return result;
   result.crossing = path.crossing;
   if (inertia && !form.about_axis()) form.rotation = mean_rotation(pieces);
+  if (swells && inertia && !form.about_axis()) form.growth = mean_growth(pieces);
   result.rotation = form.rotation;
+  result.growth = form.growth;
   JForm outside = form;  // also where the square reaches the contour
   outside.low = outside.high;
   result.contour = contour_term(outside, pieces);

@@ -11,13 +11,14 @@
 namespace mpm {
 namespace {
 
-constexpr int kPairs = 7;
+constexpr int kPairs = 7, kPairsOfPhysics = 9;
 
 /// visit(double&) for all numbers of a sample.
 template <class Visit>
 void each_number(AreaSample& sample, Visit&& visit) {
   ContourValues& values = sample.values;
-  for (Vec2* vector : {&sample.place, &sample.acceleration, &sample.velocity, &values.centre}) {
+  for (Vec2* vector : {&sample.place, &sample.acceleration, &sample.velocity, &values.centre, &sample.free_force,
+                       &sample.pressure_slope, &sample.eigenstrain_slope}) {
     for (int k = 0; k < 2; ++k) visit((*vector)[k]);
   }
   for (auto* gradient : {&sample.velocity_gradient, &values.gradient}) {
@@ -25,8 +26,9 @@ void each_number(AreaSample& sample, Visit&& visit) {
       for (double& number : row) visit(number);
     }
   }
-  for (double* number : {&sample.area, &sample.density, &values.hoop_gradient, &values.xx, &values.zz, &values.xz,
-                         &values.hoop, &values.energy, &values.kinetic}) {
+  for (double* number :
+       {&sample.area, &sample.density, &values.hoop_gradient, &values.xx, &values.zz, &values.xz, &values.hoop,
+        &values.energy, &values.kinetic, &values.free, &values.pressure, &sample.content}) {
     visit(*number);
   }
 }
@@ -52,8 +54,12 @@ TipValues::TipValues(TipParts parts, std::unique_ptr<ScalarTransfer> transfer)
       numbers_(parts_.sets.size()),
       acceleration_(parts_.sets.size()),
       slope_(parts_.sets.size()),
+      gradients_(parts_.physics.size()),
+      traces_(parts_.physics.size()),
+      energies_(parts_.physics.size()),
       nodal_(DividedNode::kFields,
-             std::vector<NodalField>(kPairs, NodalField(2, parts_.fields.front()->layout.nodes_per_block()))),
+             std::vector<NodalField>(parts_.physics.empty() ? kPairs : kPairsOfPhysics,
+                                     NodalField(2, parts_.fields.front()->layout.nodes_per_block()))),
       marks_(DividedNode::kFields),
       component_(1, parts_.fields.front()->layout.nodes_per_block()) {}
 
@@ -62,8 +68,12 @@ void TipValues::gather(int first, int crack, const std::array<int, 2>& low, cons
   crack_ = crack;
   const int fields = parts_.chosen.fields_of(first);
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-    for (PaddedArray<double>& numbers : numbers_[s]) {
+    const auto fit = [&](PaddedArray<double>& numbers) {
       if (numbers.size() != parts_.sets[s].id.size()) numbers.assign(parts_.sets[s].id.size(), 0.0);
+    };
+    for (PaddedArray<double>& numbers : numbers_[s]) fit(numbers);
+    if (!parts_.physics.empty()) {
+      for (auto* numbers : {&traces_[s], &energies_[s]}) fit(*numbers);
     }
     const Grid& patches = parts_.chosen.patches();
     fill(s, parts_.sets[s].begin[patches.first_owner], parts_.sets[s].begin.back());
@@ -85,7 +95,7 @@ void TipValues::gather(int first, int crack, const std::array<int, 2>& low, cons
         if (givers_[o] != 0) fill(s, begin[0], begin[1]);
       }
     }
-    for (int pair = 0; pair < kPairs; ++pair) {
+    for (std::size_t pair = 0; pair < nodal_[f].size(); ++pair) {
       given_.assign(parts_.sets.size(), {});
       for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
         for (std::size_t k = 0; k < 2; ++k) given_[s][k] = numbers_[s][2 * pair + k].data();
@@ -108,7 +118,24 @@ void TipValues::fill(std::size_t s, std::uint32_t first, std::uint32_t last) {
             const auto f = Geometry::load_matrix(set.f, static_cast<int>(p));
             const auto tau = Geometry::load_symmetric(set.tau, static_cast<int>(p));
             const double j = determinant(f), present = density / j;
-            double work = law.elastic_energy(full(f), full(tau), j);
+            double work;
+            if (parts_.physics.empty() || !parts_.physics[s].expands) {
+              work = law.elastic_energy(full(f), full(tau), j);
+            } else {
+              // The law counts energy by the volume that it sees, which what expands has more of.
+              const double stretch = 1.0 + set.brought[set.free_strain + 1].values[p];
+              const double shrink = 1.0 / stretch, volume = stretch * stretch * stretch;
+              Matrix3<double> own = full(f);
+              for (double* c : {&own.xx, &own.xy, &own.xz, &own.yx, &own.yy, &own.yz, &own.zx, &own.zy, &own.zz}) {
+                *c *= shrink;
+              }
+              work = volume * law.elastic_energy(own, scale_shift(full(tau), 1.0 / volume, 0.0), j / volume);
+              to[free][p] = stretch - 1.0;
+            }
+            if (!parts_.physics.empty()) {
+              traces_[s][p] = present * trace(tau);
+              energies_[s][p] = present * work;
+            }
             if constexpr (LawType::kPlasticWork >= 0) {
               work += (1.0 - law.heat_fraction()) * set.history[LawType::kPlasticWork][p];
             }
@@ -128,6 +155,7 @@ void TipValues::fill(std::size_t s, std::uint32_t first, std::uint32_t last) {
             to[hoop_gradient][p] = Geometry::kHoop ? f.yy - 1.0 : 0.0;
             to[place_x][p] = set.x[0][p];
             to[place_z][p] = set.x[1][p];
+            if (!parts_.physics.empty() && parts_.physics[s].pressure >= 0) add_water(s, p, full(f), j);
           }
         },
         parts_.laws[s]);
@@ -160,10 +188,16 @@ bool TipValues::values_at(int field, NodeRef ref, ContourValues& values) const {
   const double mass = sum(one);
   if (!(mass > parts_.fields[field]->least_mass)) return false;
   values = values_of([&](int number) { return sum(number) / mass; });
+  if (!parts_.physics.empty()) {
+    values.free = sum(free) / mass;
+    values.pressure = sum(pressure) / mass;
+  }
   if (!parts_.grid_energy) return true;
-  values.energy =
-      0.5 * (values.xx * values.gradient[0][0] + values.zz * values.gradient[1][1] +
-             values.xz * (values.gradient[0][1] + values.gradient[1][0]) + values.hoop * values.hoop_gradient);
+  if (parts_.physics.empty()) {
+    values.energy =
+        0.5 * (values.xx * values.gradient[0][0] + values.zz * values.gradient[1][1] +
+               values.xz * (values.gradient[0][1] + values.gradient[1][0]) + values.hoop * values.hoop_gradient);
+  }
   const NodalField& velocity = parts_.fields[field]->velocity;
   values.kinetic *= std::pow(velocity.at(ref.block, 0, ref.node), 2) + std::pow(velocity.at(ref.block, 1, ref.node), 2);
   return true;
@@ -217,6 +251,7 @@ void TipValues::find_samples(const GridLines& lines, const ContourPath& path, st
       transfer_->gradient(first_ + f, component_, taken_, &marks_[f]);
     }
   }
+  if (!parts_.physics.empty()) find_slopes();
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet& set = sets[s];
     if (set.field != first_ || parts_.cracks[crack_].divides[s] == 0) continue;
@@ -240,6 +275,7 @@ void TipValues::find_samples(const GridLines& lines, const ContourPath& path, st
         }
         sample.values = values_of([&](int number) { return of[number][p]; });
         if (parts_.grid_energy) sample.values.kinetic *= sample.velocity.squaredNorm();
+        if (!parts_.physics.empty()) add_physics(s, p, sample);
         samples.push_back(sample);
       }
     };

@@ -35,6 +35,10 @@ TipSettings tip_settings(const RunParts& parts) {
     made.name = material.name;
     if (m < asked.materials.size()) made.constants = asked.materials[m];
     made.elastic = elastic_constants_of(material, definition.geometry);
+    if (const auto* pores = definition.transport.find(Transported::pore_pressure);
+        pores != nullptr && made.elastic && closed(pores->materials[m])) {
+      made.elastic = undrained(*made.elastic, pores->materials[m]);
+    }
     made.wave_speed = made.elastic ? made.elastic->dilatational_speed() : 0.0;
     settings.materials.push_back(std::move(made));
   }
@@ -50,6 +54,35 @@ TipSettings tip_settings(const RunParts& parts) {
         parts.laws[s]);
   }
   return settings;
+}
+
+/// Physics of each set; empty where nothing expands and no water is in pores.
+std::vector<TipPhysics> tip_physics(const RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  const QuantityDefinition* pores = definition.transport.find(Transported::pore_pressure);
+  const char* name = traits_of(Transported::pore_pressure).name;
+  std::vector<TipPhysics> list;
+  bool any = false;
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    const MaterialDefinition& material = find_material(definition, definition.bodies[s]);
+    TipPhysics physics;
+    physics.expands = parts.sets[s].free_strain >= 0;
+    if (pores != nullptr) {
+      const auto& brought = parts.sets[s].brought;
+      for (std::size_t n = 0; n < brought.size(); ++n) {
+        if (brought[n].name == name) physics.pressure = static_cast<int>(n) + 1;  // the next one is what is carried
+      }
+      physics.pores = pores->materials[&material - definition.materials.data()];
+      physics.undrained = closed(physics.pores);
+      if (const auto elastic = elastic_constants_of(material, definition.geometry)) {
+        physics.bulk = elastic->youngs / (3.0 * (1.0 - 2.0 * elastic->poisson));
+      }
+    }
+    any = any || physics.any();
+    list.push_back(physics);
+  }
+  if (!any) list.clear();
+  return list;
 }
 
 void check(const RunParts& parts) {
@@ -117,6 +150,7 @@ void add_cracks(RunParts& parts) {
   TipParts tip_parts{made->cracks, *made->chosen,       parts.fields, parts.sets, parts.laws,
                      {},           definition.geometry, across};
   tip_parts.grid_energy = asked.contour.energy == ContourDefinition::Energy::grid;
+  tip_parts.physics = tip_physics(parts);
   tip_parts.ranks = parts.ranks;
   for (const DeformableBody& body : definition.bodies) {
     tip_parts.densities.push_back(find_material(definition, body).density);

@@ -8,7 +8,9 @@
 // sigma the total stress and sigma' that of the law. For small strains the first is int sigma'_ij d e^free_ij / dx_k dA
 // of thermoelastic fracture. zeta is the water that a volume has taken in. Where no water moves it does not vary, H is
 // the energy at constant content and needs no area; where water flows p has no singularity at the tip, and J is the
-// energy released at the pressure that is there. The mean of zeta is carried by the contour: int p,k dA = int p n_k ds.
+// energy released at the pressure that is there. S p^2 / 2 is left out then: a function of p alone gives to the contour
+// what it takes from the area, and where pressures are high that is a small difference of large numbers. The mean of
+// zeta is carried by the contour: int p,k dA = int p n_k ds.
 //
 // Stress intensities feel both as a strain e* that brings no stress, by int sigma^aux_ij d e*_ij / dx_1 dA: with
 // drained constants e* = lambda - 1 + b p / (3 K); in a material that water cannot flow through with the undrained

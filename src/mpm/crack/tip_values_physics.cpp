@@ -16,7 +16,7 @@ void TipValues::add_water(std::size_t s, std::uint32_t p, const Matrix3<double>&
   auto& to = numbers_[s];
   const double water = parts_.sets[s].brought[physics.pressure].values[p];
   const Symmetric3<double>& b = physics.pores.biot;
-  const double storage = physics.pores.capacity(water), squeezed = physics.squeezed(f, j);
+  const double storage = physics.undrained ? physics.pores.capacity(water) : 0.0, squeezed = physics.squeezed(f, j);
   to[stress_xx][p] -= b.xx * water;
   to[stress_zz][p] -= b.zz * water;
   to[stress_xz][p] -= b.xz * water;

@@ -143,7 +143,7 @@ TEST(CrackAverage, AveragedDilatationIsThatOfEachSide) {
   }
 }
 
-/// How far the front of the shipped cut comes in 2 s, with this height in units of c / gamma [m].
+/// Way of the front of the shipped cut in 2 s, with this height in units of c / gamma [m].
 double front(double height, bool cracked) {
   constexpr double kWeight = 1700 * 9.81;  // [N/m^3], times 1 m
   Changes changes = {fmt::format("materials.clay.yield_stress={:.9g}", std::sqrt(3.0) * kWeight / height)};
@@ -160,7 +160,8 @@ double front(double height, bool cracked) {
 
 // A vertical cut falls from 3.83 c / gamma on and stands to 3.77 (limit analysis); with a crack down to half of its
 // height a wedge at 45 degrees slides from 2.67 on (Terzaghi 1943, 152-154), which is an upper bound. What stands moves
-// by 2 mm (the elastic part); what falls, with a tenth more than its height or more, by a tenth of a cell and more. About 10 s.
+// by 2 mm (the elastic part); what falls, with a tenth more than its height or more, by a tenth of a cell and more.
+// About 10 s.
 TEST(CrackAverage, ATensionCrackLowersTheHeightOfACut) {
   EXPECT_LT(front(2.4, true), 0.003);
   EXPECT_GT(front(3.0, true), 0.01);

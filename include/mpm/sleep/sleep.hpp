@@ -73,7 +73,7 @@ class Sleep final : public Stage {
   Sleep(const SleepDefinition& definition, SleepParts parts);
 
   std::string name() const override { return "sleep"; }
-  Ranks ranks(Hook) const override { return {Rank::asleep}; }
+  Ranks ranks(Hook hook) const override { return {hook == Hook::momentum_updated ? Rank::at_rest : Rank::asleep}; }
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void forces_gathered(StepContext& context) override;

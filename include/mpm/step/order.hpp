@@ -44,12 +44,13 @@ enum class Rank {
   axis_again,       ///< holds nodes again that contact has moved
   wall_again,       ///< the same, in the same order as before contact
   condition_again,  ///< the same
+  at_rest,          ///< holds nodes of material asleep, before loads compute their work
   load,             ///< computes its work with the velocity that all conditions have left
   traction,         ///< the same
   transport,        ///< adds the force of the water in pores; moves what is transported when contact has told of heat
   massless_node,    ///< books the force on nodes without mass, so it acts after all forces have been added
   side_again,       ///< shares between both sides what acted on one of them
-  asleep            ///< holds nodes of material asleep against all else, and reads the sum of all forces
+  asleep            ///< reads the sum of all forces, and holds nodes of material asleep against all else
 };
 
 /// True if a stage of this rank is contact, or has it, after which others have to hold their nodes again.

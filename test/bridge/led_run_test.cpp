@@ -15,6 +15,8 @@
 namespace mpm_ros {
 namespace led_run_test {
 
+using AnyRun = Run;  ///< Run of a test is another thing
+
 constexpr int kPress = 15;  ///< sync periods of 2 ms in which the plate comes 7 mm into the strip
 
 AppliedCommand velocity_of(const Run& run, const std::string& body, double vz) {
@@ -49,7 +51,8 @@ class LedRuns : public ::testing::Test {
   }
   ~LedRuns() override { std::filesystem::remove_all(folder_); }
 
-  std::unique_ptr<Run> make(const mpm::Scene& scene, mpm::Communicator* ranks, const std::string& resume = {}) const {
+  std::unique_ptr<AnyRun> make(const mpm::Scene& scene, mpm::Communicator* ranks,
+                               const std::string& resume = {}) const {
     RunOptions options;
     options.threads = 1;
     options.output = output_options(scene);
@@ -83,7 +86,7 @@ class LedRuns : public ::testing::Test {
 TEST_F(LedRuns, DoWhatOneProcessDoes) {
   const auto session = [&](mpm::Communicator* ranks) {
     std::vector<Reached> found;
-    std::unique_ptr<Run> run = make(scene_, ranks);
+    std::unique_ptr<AnyRun> run = make(scene_, ranks);
     run->begin();
     run->apply(velocity_of(*run, "plate", -0.4));
     run->apply(velocity_of(*run, "rod", 0.2));
@@ -101,7 +104,7 @@ TEST_F(LedRuns, DoWhatOneProcessDoes) {
     for (int period = 0; period < 3; ++period) run->advance({});
     found.push_back(reached(*run));
     // Another one is made beside it, as a reset does.
-    std::unique_ptr<Run> again = make(scene_, ranks, saved);
+    std::unique_ptr<AnyRun> again = make(scene_, ranks, saved);
     run->finish();
     run = std::move(again);
     run->begin();
@@ -130,7 +133,7 @@ TEST_F(LedRuns, DoWhatOneProcessDoes) {
 TEST_F(LedRuns, FailTogetherAndBeginAgain) {
   const mpm::Scene scene = mpm::load_scene(source_file("test/data/leaves_domain.yaml"), {"time.sync=1 ms"});
   EXPECT_EQ(led([&](mpm::Communicator* ranks) {
-              std::unique_ptr<Run> run = make(scene, ranks);
+              std::unique_ptr<AnyRun> run = make(scene, ranks);
               run->begin();
               std::string reason;
               for (int period = 0; period < 200 && reason.empty(); ++period) {
@@ -158,7 +161,7 @@ TEST_F(LedRuns, EndWhereTheStepOfOneRankFails) {
                       {"loads=[{body_force: {acceleration: [\"x > 0.14 && t > 0.01 ? log(0 - 1) : 0\", 0]}}]"});
   try {
     led([&](mpm::Communicator* ranks) {
-      const std::unique_ptr<Run> run = make(scene, ranks);
+      const std::unique_ptr<AnyRun> run = make(scene, ranks);
       run->begin();
       for (int period = 0; period < 20; ++period) run->advance({});
     });
@@ -172,7 +175,7 @@ TEST_F(LedRuns, EndWhereTheStepOfOneRankFails) {
 TEST_F(LedRuns, RefuseOnAllWhatCannotBeResumed) {
   EXPECT_EQ(led([&](mpm::Communicator* ranks) {
               EXPECT_THROW(make(scene_, ranks, (folder_ / "none.h5").string()), mpm::CheckpointError);
-              const std::unique_ptr<Run> run = make(scene_, ranks);
+              const std::unique_ptr<AnyRun> run = make(scene_, ranks);
               run->begin();
               run->finish();
             }),

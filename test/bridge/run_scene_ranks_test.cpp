@@ -312,7 +312,7 @@ TEST_F(RunSceneOverRanks, AimsAtATargetTogether) {
          "bodies: [{name: bed, material: sand, shape: {box: {min: [0, 0], max: [1.6, 0.4]}}}]\n"
          "rigid_bodies: [{name: tool, shape: {polygon: {points: [[0, 0], [0.2, 0], [0.2, 0.3], [0, 0.3]]}}, "
          "pose: {position: [0.7, 0.41]}, motion: {velocity: [0, -1]}}]\nboundaries: {all: slip}\n";
-  options_.set = {"target={error: 50 %}"};
+  options_.set = {"target={force_error: 50 %}"};
   options_.end.clear();
   options_.summary = file("summary.json");
   options_.bag = file("run.bag");

@@ -29,3 +29,7 @@ add_test(NAME mpi.folder_of_one COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/check_
   ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 1 -wdir ${PROJECT_BINARY_DIR} ${saved_run}
   : ${MPIEXEC_NUMPROC_FLAG} 1 -wdir ${PROJECT_BINARY_DIR}/CMakeFiles ${saved_run})
 set_tests_properties(mpi.folder_of_one PROPERTIES LABELS mpi TIMEOUT 60 ENVIRONMENT "${mpi_environment}")
+# The node over two ranks. It starts the masters that it needs.
+add_test(NAME mpi.node COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/run_python_test ${CATKIN_DEVEL_PREFIX}
+  ${PROJECT_SOURCE_DIR}/test/mpi/node_test.py)
+set_tests_properties(mpi.node PROPERTIES LABELS mpi TIMEOUT 300 ENVIRONMENT "${mpi_environment}")

@@ -1,4 +1,4 @@
-// What ranks behind the first one do in a run that it leads (led_run.hpp): they wait for its orders, and follow them.
+// Ranks behind the first one, in a run that it leads (led_run.hpp): they wait for its orders, and follow them.
 #pragma once
 
 #include <exception>

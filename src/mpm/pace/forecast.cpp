@@ -33,7 +33,7 @@ std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, 
   options.threads = threads;
   options.isa = isa;
   options.settle = false;
-  if (ranks != nullptr) options.ranks = {ranks, [](Communicator*) {}};  // whose they are outlives the copy
+  if (ranks != nullptr) options.ranks = {ranks, [](Communicator*) {}};  // owned by others, who outlive the copy
   options.stop = [&timer] { return timer.after_step(); };
   options.interrupt = [&timer] { return timer.over_budget(); };
   // Soil that has not settled falls in its first implicit steps, which takes more sweeps than are usual.

@@ -21,8 +21,8 @@ mpm::Vec3 vector_of(const Order& order) {
   return {order.at(0).get<double>(), order.at(1).get<double>(), order.at(2).get<double>()};
 }
 
-/// What decides at which sync points all ranks read their particles, and which of them; the rest is for the first rank,
-/// which writes.
+/// Options that decide at which sync points all ranks read their particles, and which of them; the rest is for the
+/// first, which writes.
 Order output_order(const OutputOptions& output) {
   Order order = {{"fields", output.particles.fields},         {"stride", output.particles.choice.stride},
                  {"particle_period", output.particle_period}, {"particle_first", output.particle_first},
@@ -64,7 +64,7 @@ class Follower {
       if (what == "begin") runs_.erase(runs_.begin(), runs_.find(number));  // those before it are over
       obey(what, order, run);
     } catch (const std::exception& error) {
-      if (!is_alike(error)) throw;  // of the others the first rank tells
+      if (!is_alike(error)) throw;  // errors of all are told by the first rank
     }
   }
 

@@ -189,13 +189,6 @@ std::vector<Case> cases() {
   add(kAsleep, "asleep", {});
   add(kAsleep, "asleep_damped_xpic", {"sleep.damping=0.3", "method.transfer={xpic: 2}", "method.update=usl"});
   add(kAsleep, "asleep_single_apic", {"method.precision=single", "method.transfer=apic"});
-  add(kAsleep, "asleep_warm_loaded",
-      {"materials.sand.heat_capacity=800", "materials.sand.conductivity=4000", "sleep.temperature=0.01",
-       "transport={temperature: {initial: \"300+20*x\", values: [{name: end, region: {box: {min: [-1, -1], max: [0, "
-       "1]}}, "
-       "value: 310}]}}",
-       "loads=[{body_force: {acceleration: [\"0.5*sin(40*t)*(x>1.5)\", 0]}}, {traction: {body: bed, edge: z_max, "
-       "traction: [0, -100]}}]"});
   add(kSolid, "solid_single_cpdi", {"method.shape=cpdi", "method.precision=single"});
   return list;
 }

@@ -239,37 +239,6 @@ transport: {pore_pressure: {initial: 10000, values: [{name: drain, region: {box:
   expect_audit_closes(with);
 }
 
-// Ground warm below and wet, with its water at rest, bears a load on a part of it that begins after a while: its bits
-// do not depend on the number of threads, though blocks fall asleep and wake for each of these reasons.
-TEST(SleepMeets, TheSameBitsOnTwoThreads) {
-  const char* const kGround = R"yaml(
-geometry: plane_strain
-grid: {cell: 0.1, min: [0, 0], max: [6.4, 2.4]}
-time: {end: 1, sync: 10 ms, cfl: 0.5}
-gravity: [0, -9.81]
-method: {damping: {grid: 60}}
-materials: [{name: silt, law: linear_elastic, density: 2000, young: 5 MPa, poisson: 0.3, storage: 1e-7, permeability: 1e-12, fluid_density: 1000, heat_capacity: 800, conductivity: 2000, thermal_expansion: 1e-5}]
-bodies: [{name: bed, material: silt, shape: {box: {min: [0, 0], max: [6.4, 2]}}, initial: geostatic}]
-boundaries: {x_min: slip, x_max: slip, z_min: slip}
-sleep: {from_start: true, pore_pressure: 300 Pa, temperature: 0.1 K}
-loads: [{traction: {body: bed, edge: z_max, region: {box: {min: [0, 1.94], max: [0.8, 2.1]}}, traction: [0, "-3000*min(1, max(0, (t-0.5)/0.1))"]}}]
-transport:
-  temperature: {initial: "300-z", values: [{name: top, region: {box: {min: [0, 2], max: [6.4, 2.4]}}, value: 298}]}
-  pore_pressure: {initial: {hydrostatic: {water_table: 2, fluid_density: 1000}}, values: [{name: top, region: {box: {min: [0, 2], max: [6.4, 2.4]}}, value: 0}]}
-)yaml";
-  mpm::Simulation one = of_text(kGround), two = of_text(kGround, {}, 2);
-  run_until(one, 0.5);
-  const double rested = asleep(one);
-  EXPECT_GT(rested, 0.5);
-  run_until(one, 0.7);
-  run_until(two, 0.7);
-  EXPECT_LT(asleep(one), 0.9 * rested);
-  EXPECT_EQ(one.state_hash(), two.state_hash());
-  expect_balance(one, "temperature");
-  expect_balance(one, "pore_pressure");
-  expect_audit_closes(one);
-}
-
 // A strip with an edge crack between smooth walls bears a stress that stays: far from the crack it sleeps, and J is
 // that of a strip of which nothing does. J follows the stress, whose balance may be off by a part of what waves of
 // `wake` bring: rho c wake = 2700 * 6170 * 3 mm/s = 50 kPa of 10 MPa, which is 1 % of J.

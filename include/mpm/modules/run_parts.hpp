@@ -27,6 +27,7 @@ namespace mpm {
 class DampingControl;
 class FollowingBed;
 class HeatSink;
+class PointContact;
 class Sleep;
 class ToolSides;
 class TransportedField;
@@ -64,6 +65,7 @@ struct RunParts {
   DampingControl* damping = nullptr;
   HeatSink* heat = nullptr;
   TransportedField* temperature = nullptr;
+  PointContact* at_points = nullptr;  ///< contact of tools at points
   Sleep* sleep = nullptr;
 
   const GridLayout& layout() const { return fields.front()->layout; }

@@ -1,6 +1,7 @@
 // The explicit cracks of a definition as modules.
 #include <fmt/core.h>
 
+#include "mpm/contact/point_contact.hpp"
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/definition/definition.hpp"
 #include "mpm/kernel/select.hpp"
@@ -89,6 +90,7 @@ void add_cracks(RunParts& parts) {
   made->jumps = std::make_unique<FieldJumps>(parts.fields, asked.length);
   made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, *made->jumps, parts.map,
                                                grouping, definition.method.shape, parts.threads, parts.ranks);
+  if (parts.at_points != nullptr) parts.at_points->divide(*made->chosen);
   if (parts.halo != nullptr) {
     // Contours and what lies ahead of tips, with the nodes around them.
     const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);

@@ -91,18 +91,20 @@ Around around(Field& field, const RigidBody& body, const Vec3& place, const Vec3
   ContactPoint point;
   point.place = place;
   point.normal = normal;
-  const PointWeights weights(field.grid(), ShapeKind::ugimp, place);
+  const MaterialNodes material(field.fields, 0);
+  const PointWeights weights(material, ShapeKind::ugimp, place);
   Around result;
   for (int n = 0; n < weights.count; ++n) {
-    const int node = weights.node[n].block * field.grid().layout.nodes_per_block() + weights.node[n].node;
-    result.nodes.push_back({node, weights.weight[n], weights.weight[n]});
+    const NodeRef ref = weights.node[n].ref;
+    const int node = ref.block * field.grid().layout.nodes_per_block() + ref.node;
+    result.nodes.push_back({0, node, weights.weight[n], weights.weight[n]});
     result.before.push_back(weights.weight[n]);
   }
   result.nodes.resize(2 * weights.count);
   const int dim = field.grid().layout.dim();
   const EdgeCover cover(bodies, dim == 2 ? GeometryKind::plane_strain : GeometryKind::solid,
                         field.grid().layout.smallest_cell());
-  const EdgeCover::Nodes kept = cover.apply(point, field.grid(), result.nodes.data(), weights.count);
+  const EdgeCover::Nodes kept = cover.apply(point, material, result.nodes.data(), weights.count);
   result.at_edge = kept.at_edge;
   result.nodes.resize(kept.count);
   return result;

@@ -13,6 +13,8 @@ struct ContactPoint {
   Vec3 place = Vec3::Zero();         ///< world [m]
   Vec3 normal = Vec3::Zero();        ///< out of the body
   Vec3 velocity = Vec3::Zero();      ///< velocity of the body there [m/s]
+  Vec3 centre = Vec3::Zero();        ///< centre of the particle [m]
+  int chooser = -1;                  ///< set of a particle that chooses a field at every node, near a crack; else -1
   double gap = 0.0;                  ///< distance to the body, negative inside [m]
   double area = 0.0;                 ///< area of the surface that the point represents [m^2]
 };

@@ -60,11 +60,13 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/material_nodes.hpp"
 
 namespace mpm {
 
 /// A node of a point of contact. Nodes are numbered block * nodes_per_block + node in their field's grid.
 struct PointNode {
+  int field;
   int node;
   double weight;       ///< part of the point's impulse that it gets, negative beyond an edge; all sum to 1
   double reading;      ///< factor of its velocity in that at the point; as `weight` away from edges
@@ -81,7 +83,8 @@ class EdgeCover {
     bool at_edge = false;  ///< true if a node lies in part beyond an edge
   };
   /// Changes the `count` nodes around a point for edges near it. There is room for twice as many in `nodes`.
-  Nodes apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const;
+  /// `material`: the nodes that the point's material has.
+  Nodes apply(const ContactPoint& point, const MaterialNodes& material, PointNode* nodes, int count) const;
 
  private:
   const std::vector<const RigidBody*>& bodies_;

@@ -22,8 +22,9 @@
 // change, J.dv / 2, belongs to the transfer and is not friction. So a point that sticks in both steps takes no energy.
 // A new point begins with the slip of the gathered velocities.
 //
-// In scenes with laws between deformable bodies, the tools' forces of the step before are added to the nodes' forces,
-// and the solution corrects them. Pairs act before tools, and in this way know how hard tools press.
+// In scenes with laws between deformable bodies, or with cracks, the tools' forces of the step before are added to the
+// nodes' forces, and the solution corrects them. Pairs and the faces of cracks act before tools, and in this way know
+// how hard tools press.
 //
 // What else is lost, of motion that is held up and of particles that move past a point which is held, is the account
 // `contact_loss`: all that the material loses by the work of the impulse and of the step's forces, as
@@ -65,12 +66,13 @@ struct PointContactSettings {
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
-  Vec3 gravity = Vec3::Zero();    ///< acts on free bodies [m/s^2]
-  bool with_pairs = false;        ///< true if deformable bodies have laws with each other
-  HeatSink* heat = nullptr;       ///< receiver of friction and touch, if there is heat
-  bool sharp_edges = true;        ///< true if points see that faces end (contact/edge_cover.hpp)
-  Communicator* ranks = nullptr;  ///< communicator of a run over several ranks; else null
-  BodyContactSettings meeting;    ///< contact of rigid bodies with each other and with walls
+  Vec3 gravity = Vec3::Zero();         ///< acts on free bodies [m/s^2]
+  bool with_pairs = false;             ///< true if deformable bodies have laws with each other, or there are cracks
+  HeatSink* heat = nullptr;            ///< receiver of friction and touch, if there is heat
+  bool sharp_edges = true;             ///< true if points see that faces end (contact/edge_cover.hpp)
+  Communicator* ranks = nullptr;       ///< communicator of a run over several ranks; else null
+  BodyContactSettings meeting;         ///< contact of rigid bodies with each other and with walls
+  const NodeChoice* choice = nullptr;  ///< choice of particles near cracks, which divide() then tells of; else null
 };
 
 class PointContact final : public Stage, public ContactReporter {
@@ -78,6 +80,9 @@ class PointContact final : public Stage, public ContactReporter {
   /// Bodies, sets and fields must outlive the stage. `laws`: one for each body and set, those of one body together.
   PointContact(std::vector<RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
                std::vector<ContactLaw> laws, const PointContactSettings& settings);
+
+  /// Tells on which side of cracks material is; `sides` must outlive the stage.
+  void divide(const SideOfCracks& sides) { solver_.divide(sides); }
 
   std::string name() const override { return "point_contact"; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
@@ -130,6 +135,8 @@ class PointContact final : public Stage, public ContactReporter {
   void clear_impulses();
   /// Sets the impulses that the step's solution begins with.
   void begin_impulses();
+  /// Tells of the heat of friction [J] at a point, and of its touch.
+  void tell_of_heat(const PointSolver::Point& point, const Contact& contact, double friction, double dt) const;
   /// Books the impulse of a point whose body moves with `velocity` there.
   void give(std::size_t point, const Vec3& velocity, const Vec3& mean_slip);
 

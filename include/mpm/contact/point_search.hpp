@@ -12,6 +12,7 @@
 
 #include "mpm/contact/contact_point.hpp"
 #include "mpm/grid/fields.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/ranks/communicator.hpp"
@@ -22,16 +23,18 @@ namespace mpm {
 class PointSearch {
  public:
   /// Bodies, sets and fields must outlive this object. `across`: thickness [m] of a plane, area [m^2] of a line.
-  /// `ranks`: where the run is over several, else null.
+  /// `ranks`: where the run is over several, else null. `choice`: of particles near cracks; null without cracks.
   PointSearch(const std::vector<const RigidBody*>& bodies, const std::vector<ParticleSet>& sets, const Fields& fields,
-              GeometryKind geometry, double across, int threads, Communicator* ranks = nullptr)
+              GeometryKind geometry, double across, int threads, Communicator* ranks = nullptr,
+              const NodeChoice* choice = nullptr)
       : bodies_(bodies),
         sets_(sets),
         fields_(fields),
         geometry_(geometry),
         across_(across),
         threads_(threads),
-        ranks_(ranks) {}
+        ranks_(ranks),
+        choice_(choice) {}
 
   /// Points that are near a body, or come near to it within `dt` [s]. The law of a body against a set is the one at
   /// (place of the body) * (number of sets) + (place of the set). The order does not depend on the number of threads.
@@ -39,11 +42,15 @@ class PointSearch {
   const std::vector<ContactPoint>& find(double dt);
 
  private:
-  /// The particles of one block, which may be near one body.
+  /// The particles of one block, or of a patch near a crack, which may be near one body.
   struct Job {
-    int field, owner, body;  ///< the owner among those of its field
+    int field, owner, body;  ///< the owner among those of its field; patches have the field NodeChoice::number()
   };
   void find_jobs(double band);
+  /// The grid of a field, or that of the patches.
+  const Grid& grid_of(int field) const {
+    return field < static_cast<int>(fields_.size()) ? *fields_[field] : choice_->grid();
+  }
   template <class Geometry>
   void find_in(double dt);
   /// `farthest`: the largest reach of a particle from its centre [m].
@@ -61,6 +68,7 @@ class PointSearch {
   double across_;
   int threads_;
   Communicator* ranks_;
+  const NodeChoice* choice_;
   std::vector<Job> jobs_;
   std::vector<std::vector<ContactPoint>> of_job_;
   std::vector<ContactPoint> points_;

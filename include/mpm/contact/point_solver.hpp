@@ -6,6 +6,9 @@
 // share no node: many points are solved on several threads, with the same bits for any number of them. With cubic
 // splines and a point near an edge one thread solves them.
 //
+// Near a crack a point acts, at each node around it, on the field that its particle has there
+// (step/material_nodes.hpp): fields of one body are at the same nodes, so colours hold for them, too.
+//
 // The velocity of a free body is an unknown like those of the nodes: the compliance of a point is the sum of the nodes'
 // part and the body's, n.(1/M + (r x n) I^-1 (r x n)) along the normal, and an impulse changes both. Sweeps are then
 // the steps of a nonlinear conjugate gradient method (contact/conjugate_sweeps.hpp), since a light body couples all
@@ -34,6 +37,7 @@
 #include "mpm/rigid/dynamic_motion.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/coulomb.hpp"
+#include "mpm/step/material_nodes.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -74,6 +78,8 @@ class PointSolver {
         threads_(threads),
         on_bodies_(bodies.size()) {}
 
+  /// Tells of cracks, which divide material near points; `sides` must outlive this object.
+  void divide(const SideOfCracks& sides) { sides_ = &sides; }
   /// Takes over the points found, in the order of solution and without those that have no node with mass around them.
   void connect(const std::vector<ContactPoint>& found);
   std::vector<Point>& points() { return points_; }
@@ -88,6 +94,14 @@ class PointSolver {
   /// The nodes' velocities, weighted as an impulse is spread [m/s]. Near an edge on a free surface this is not what
   /// contact sees: an impulse times the difference is the energy that is lost where material is cut (edge_cover.hpp).
   Vec3 carried_at(const Point& point) const;
+  /// visit(node, part of an impulse) for the nodes of a point.
+  template <class Visit>
+  void each_node(const Point& point, Visit&& visit) const {
+    for (int i = point.first; i < point.end; ++i) {
+      const NodeOrigin& origin = origins_[parts_[i].node];
+      visit(FieldNode{origin.field, origin.ref}, parts_[i].weight);
+    }
+  }
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
   /// Applies them to free bodies alone.
@@ -130,6 +144,7 @@ class PointSolver {
   /// Number of threads that pays for this number of points.
   int threads_for(int points) const;
   void find_weights(const std::vector<ContactPoint>& found);
+  MaterialNodes nodes_of(const ContactPoint& point) const;
   /// Puts the points of one block together, in the order in which they are solved.
   void cluster(const std::vector<ContactPoint>& found);
   void add(const ContactPoint& point, int found);
@@ -151,6 +166,7 @@ class PointSolver {
   const std::vector<const RigidBody*>& bodies_;
   EdgeCover edges_;
   bool sharp_;
+  const SideOfCracks* sides_ = nullptr;
   ShapeKind shape_;
   int threads_;
   int solving_threads_ = 0;

@@ -30,6 +30,7 @@
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/shape/kind.hpp"
+#include "mpm/step/material_nodes.hpp"
 #include "mpm/step/patch_sorter.hpp"
 #include "mpm/step/step_context.hpp"
 
@@ -43,7 +44,7 @@ struct Crack {
   bool felt = true;                   ///< false: its faces are joined as if it were not there
 };
 
-class CrackFields {
+class CrackFields final : public SideOfCracks {
  public:
   /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides. `jumps`: of pairs
   /// that growth has put into another field since the last step. `ranks`: null on one process.
@@ -62,11 +63,7 @@ class CrackFields {
   /// Nodes at which something has been found across a crack, in the order of their finding; over several ranks in that
   /// of their places.
   const std::vector<DividedNode>& nodes() const { return nodes_; }
-  /// A node of one of the fields of a group of bodies, by their field 0.
-  struct NodeOfField {
-    int field = -1;  ///< none
-    NodeRef ref{-1, 0};
-  };
+  using NodeOfField = FieldNode;
   /// visit(node, hat function) for the nodes around a place, each in the field that material at `from` has there.
   /// Without those that have nothing on that side of the cracks between them and `from`.
   template <class Visit>
@@ -77,6 +74,7 @@ class CrackFields {
       if (own.ref.block >= 0) visit(own, hat);
     });
   }
+  FieldNode node_of(int set, const Vec3& from, const std::array<int, 3>& node) const override;
   /// visit(field, NodeRef) for the fields of a group that have the node.
   template <class Visit>
   void each_field(int first, const std::array<int, 2>& node, Visit&& visit) const {
@@ -135,6 +133,9 @@ class CrackFields {
   void look_around(int first, const Vec2& place, const Vec2& from) const;
   NodeOfField find_node(int first, const Vec2& from, const std::array<int, 2>& node) const;
   Place place_of_node(int first, const std::array<int, 2>& node) const;
+  Vec2 node_place(const std::array<int, 2>& node) const;
+  /// The node at this place in the field of a group that holds what lies beyond these cracks.
+  NodeOfField field_at(int first, const Place& own, const CracksBetween& between) const;
   void find_listed();
   /// Forgets the nodes, and makes room for those of the fields' blocks.
   void clear_nodes();

@@ -28,6 +28,7 @@ class DampingControl;
 class FollowingBed;
 class HeatSink;
 class RestPartner;
+class PointContact;
 class Sleep;
 class StressAverage;
 class ToolSides;
@@ -66,6 +67,7 @@ struct RunParts {
   DampingControl* damping = nullptr;
   HeatSink* heat = nullptr;
   TransportedField* temperature = nullptr;
+  PointContact* at_points = nullptr;  ///< contact of tools at points
   Sleep* sleep = nullptr;
   StressAverage* stress_average = nullptr;
   std::vector<RestPartner*> rest_partners = {};  ///< modules that act on material at rest, which sleep asks

@@ -11,7 +11,7 @@
 #include <array>
 
 #include "mpm/shape/kind.hpp"
-#include "mpm/step/step_context.hpp"
+#include "mpm/step/material_nodes.hpp"
 
 namespace mpm {
 
@@ -19,14 +19,11 @@ struct PointWeights {
   static constexpr int kMost = 125;  ///< number for cubic splines in a solid
 
   int count = 0;  ///< nodes with a weight; 0: no node around the point carries mass, or it is far out of the domain
-  std::array<NodeRef, kMost> node;
+  std::array<FieldNode, kMost> node;
   std::array<double, kMost> weight;  ///< sum to 1
 
   /// `at`: world [m], along the grid's axes.
-  PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at);
+  PointWeights(const MaterialNodes& nodes, ShapeKind shape, const Vec3& at);
 };
-
-/// The node nearest to a place [m]; its block is -1 if that node carries no mass, or lies far out of the domain.
-NodeRef nearest_node(const Grid& grid, const Vec3& at);
 
 }  // namespace mpm

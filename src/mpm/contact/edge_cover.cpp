@@ -96,6 +96,7 @@ Edges edges_near(const RigidBody& body, const ContactPoint& point, const GridLay
 
 /// Material beyond an edge, as a node near it sees it.
 struct Beyond {
+  int field = -1;
   int node = -1;        ///< none if negative
   double backed = 0.0;  ///< fullness behind the plane that continues the face, 0 to 1
 };
@@ -103,9 +104,10 @@ struct Beyond {
 /// Adds to a node of the list, or a node to the list.
 void add(const PointNode& added, PointNode* nodes, int& count) {
   PointNode* end = nodes + count;
-  PointNode* found = std::find_if(nodes, end, [&](const PointNode& one) { return one.node == added.node; });
+  PointNode* found = std::find_if(
+      nodes, end, [&](const PointNode& one) { return one.node == added.node && one.field == added.field; });
   if (found == end) {
-    *end = {added.node, 0.0, 0.0};
+    *end = {added.field, added.node, 0.0, 0.0};
     ++count;
   }
   found->weight += added.weight;
@@ -122,21 +124,22 @@ EdgeCover::EdgeCover(const std::vector<const RigidBody*>& bodies, GeometryKind g
   }
 }
 
-EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const {
+EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const MaterialNodes& material, PointNode* nodes,
+                                  int count) const {
   const RigidBody& body = *bodies_[point.body];
-  const GridLayout& layout = grid.layout;
+  const GridLayout& layout = material.grid().layout;
   const Edges edges = edges_near(body, point, layout);
   if (edges.count == 0) return {count, false};
   const int per_block = layout.nodes_per_block();
-  const auto mass_of = [&](const NodeRef& ref) { return grid.mass.at(ref.block, 0, ref.node); };
   const Vec3 into = -cell_along(layout, point.normal) * point.normal;
   std::array<PointNode, PointWeights::kMost> around;
   std::copy(nodes, nodes + count, around.begin());
   double sum = 0.0;
   Nodes result;
   for (int n = 0; n < count; ++n) {
-    const NodeRef ref{around[n].node / per_block, around[n].node % per_block};
-    const Vec3 place = layout.node_position(grid.blocks.block(ref.block), ref.node);
+    const FieldNode own{around[n].field, {around[n].node / per_block, around[n].node % per_block}};
+    const Vec3 place = material.place(own);
+    const double mass = material.mass(own);
     double cover = 1.0;
     Beyond other;
     for (int e = 0; e < edges.count; ++e) {
@@ -144,28 +147,30 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
       const double cell = edges.cell[e];
       const double within = 1.0 + further_[point.body] - beyond(body, place + cell * across, across) / cell;
       if (hat_part(within) >= kWhole) continue;
-      const NodeRef further = nearest_node(grid, place + cell * across);
-      if (further.block < 0 || (further.block == ref.block && further.node == ref.node)) continue;
-      if (mass_of(further) < kThinnest * mass_of(ref)) continue;
-      const NodeRef behind = nearest_node(grid, place + cell * across + into);
-      const double least = behind.block < 0 ? 0.0 : std::min(mass_of(behind), mass_of(further));
-      const double backed = std::min(1.0, least / mass_of(ref));
+      const FieldNode further = material.nearest(place + cell * across);
+      if (further.ref.block < 0 || further == own) continue;
+      const double beyond_edge = material.mass(further);
+      if (beyond_edge < kThinnest * mass) continue;
+      const FieldNode behind = material.nearest(place + cell * across + into);
+      const double least = behind.ref.block < 0 ? 0.0 : std::min(material.mass(behind), beyond_edge);
+      const double backed = std::min(1.0, least / mass);
       const double ahead = ((place - point.place).dot(point.normal) + point.gap) / into.norm();
       const double front = std::max(hat_part(ahead), kLeastFront);
-      const double own = part_before(hat_part(within), front, backed);
+      const double of_node = part_before(hat_part(within), front, backed);
       const double of_further = part_before(hat_part(within - 1.0), front, backed);
-      const double part = (own - of_further) / (1.0 - of_further);
+      const double part = (of_node - of_further) / (1.0 - of_further);
       if (!(part < cover)) continue;
       cover = part;
-      other.node = further.block * per_block + further.node;
+      other.field = further.field;
+      other.node = further.ref.block * per_block + further.ref.node;
       other.backed = backed;
     }
     if (cover < kLeastPart) continue;
     const double reading = around[n].reading * std::min(1.0, cover / kHalf), rest = reading * (1.0 - cover);
     const double carried = other.backed * rest;
-    add({around[n].node, reading - rest + carried, reading}, nodes, result.count);
+    add({around[n].field, around[n].node, reading - rest + carried, reading}, nodes, result.count);
     if (rest > 0.0) {
-      add({other.node, -carried, -carried, carried - rest}, nodes, result.count);
+      add({other.field, other.node, -carried, -carried, carried - rest}, nodes, result.count);
       result.at_edge = true;
     }
     sum += reading * cover;

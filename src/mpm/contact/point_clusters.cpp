@@ -24,15 +24,16 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   found_block_.resize(found.size());
   found_at_edge_.resize(found.size());
   for_all("contact: weights of points", std::clamp(count / kPointsPerThread, 1, threads_), count, [&](int i) {
-    const Grid& grid = *fields_[found[i].field];
-    const PointWeights weights(grid, shape_, found[i].place);
+    const MaterialNodes material = nodes_of(found[i]);
+    const PointWeights weights(material, shape_, found[i].place);
     PointNode* nodes = &found_nodes_[static_cast<std::size_t>(i) * stride_];
     for (int n = 0; n < weights.count; ++n) {
-      nodes[n] = {weights.node[n].block * layout.nodes_per_block() + weights.node[n].node, weights.weight[n],
+      const FieldNode& node = weights.node[n];
+      nodes[n] = {node.field, node.ref.block * layout.nodes_per_block() + node.ref.node, weights.weight[n],
                   weights.weight[n]};
     }
     const auto [nodes_count, at_edge] =
-        sharp_ ? edges_.apply(found[i], grid, nodes, weights.count) : EdgeCover::Nodes{weights.count, false};
+        sharp_ ? edges_.apply(found[i], material, nodes, weights.count) : EdgeCover::Nodes{weights.count, false};
     found_at_edge_[i] = at_edge;
     // That of the nearest node, as of a particle: blocks of one colour then share no node (but see
     // sweep_prescribed() for cubic splines).
@@ -41,9 +42,14 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
       const int node = GridLayout::nearest(layout.in_cells(k, found[i].place[layout.axis(k)]));
       block[k] = (node + kBlockEdge) / kBlockEdge - 1;
     }
-    found_block_[i] = nodes_count > 0 ? grid.blocks.find(layout.key(block)) : -1;
+    found_block_[i] = nodes_count > 0 ? material.grid().blocks.find(layout.key(block)) : -1;
     found_count_[i] = found_block_[i] < 0 ? 0 : nodes_count;
   });
+}
+
+MaterialNodes PointSolver::nodes_of(const ContactPoint& point) const {
+  if (sides_ == nullptr || point.chooser < 0) return {fields_, point.field};
+  return {fields_, point.field, *sides_, point.chooser, point.centre};
 }
 
 void PointSolver::cluster(const std::vector<ContactPoint>& found) {
@@ -93,18 +99,17 @@ void PointSolver::add(const ContactPoint& contact, int found) {
   point.at_edge = found_at_edge_[found] != 0;
   any_at_edge_ = any_at_edge_ || point.at_edge;
   point.first = static_cast<int>(parts_.size());
-  const Grid& grid = *fields_[contact.field];
-  const int per_block = grid.layout.nodes_per_block();
+  const int per_block = fields_.front()->layout.nodes_per_block();
   const auto ref_of = [per_block](int node) { return NodeRef{node / per_block, node % per_block}; };
   const PointNode* nodes = &found_nodes_[static_cast<std::size_t>(found) * stride_];
   for (int n = 0; n < found_count_[found]; ++n) {
     const PointNode& node = nodes[n];
-    int& slot = slot_[contact.field][node.node];
+    int& slot = slot_[node.field][node.node];
     if (slot < 0) {
       slot = static_cast<int>(nodes_.size());
       const NodeRef ref = ref_of(node.node);
-      nodes_.push_back({{}, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
-      origins_.push_back({contact.field, ref, {}});
+      nodes_.push_back({{}, 1.0 / fields_[node.field]->mass.at(ref.block, 0, ref.node)});
+      origins_.push_back({node.field, ref, {}});
     }
     parts_.push_back({slot, node.weight, node.reading});
     if (node.start != 0.0) starts_.push_back({static_cast<int>(points_.size()), slot, node.start});

@@ -26,7 +26,8 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
       cell_(fields.front()->layout.smallest_cell()),
       with_pairs_(settings.with_pairs),
       gravity_(settings.gravity),
-      search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads, settings.ranks),
+      search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads, settings.ranks,
+              settings.choice),
       solver_(fields, surfaces_, settings.geometry, settings.shape, settings.sharp_edges, settings.threads),
       free_(bodies_, settings.gravity, settings.meeting) {
   for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
@@ -180,8 +181,7 @@ void PointContact::momentum_updated(StepContext& context) {
     const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
     ledgers_[contact.found->body].add_loss({0.0, held - friction - cut});
     if (heat_ != nullptr && (point.hold != Hold::free || contact.gap <= kTouching * cell_)) {
-      heat_->touch(*bodies_[contact.found->body], *fields_[contact.found->field], point.place, contact.found->area,
-                   friction, context.dt);
+      tell_of_heat(point, contact, friction, context.dt);
     }
     const Vec3 along = along_surface(slip, point.normal);
     // Material that has come to rest has friction at rest again.
@@ -229,6 +229,24 @@ void PointContact::increment_found(StepContext&) {
     const PointSolver::Point& point = solver_.points()[i];
     cut_ += point.impulse.dot(0.5 * (contacts_[i].cut + solver_.velocity_at(point) - solver_.carried_at(point)));
   }
+}
+
+// Nodes that cracks divide are warmed by friction each in its field; nothing is exchanged with tools there
+// (rules/feature_rules.hpp).
+void PointContact::tell_of_heat(const PointSolver::Point& point, const Contact& contact, double friction,
+                                double dt) const {
+  const RigidBody& body = *bodies_[contact.found->body];
+  if (contact.found->chooser < 0) {
+    heat_->touch(body, *fields_[contact.found->field], point.place, contact.found->area, friction, dt);
+    return;
+  }
+  double whole = 0.0;  // nodes beyond an edge have negative parts of an impulse, and no heat
+  solver_.each_node(point, [&](const FieldNode&, double part) { whole += std::max(part, 0.0); });
+  solver_.each_node(point, [&](const FieldNode& node, double part) {
+    const Grid& grid = *fields_[node.field];
+    const std::uint64_t id = HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node);
+    if (part > 0.0) heat_->rub(&body, grid, id, friction * part / whole, dt);
+  });
 }
 
 void PointContact::give(std::size_t i, const Vec3& velocity, const Vec3& mean_slip) {

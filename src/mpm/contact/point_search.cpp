@@ -40,9 +40,9 @@ double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centr
 /// A point as ranks send it.
 struct SentPoint {
   std::uint64_t block;  ///< key of the one that the particle was sorted into
-  std::int32_t body, field, law;
+  std::int32_t body, field, law, chooser;
   std::uint32_t particle;
-  std::array<double, 3> place, normal, velocity;
+  std::array<double, 3> place, normal, velocity, centre;
   double gap, area;
 };
 
@@ -54,10 +54,12 @@ SentPoint sent(const ContactPoint& point, std::uint64_t block) {
           point.body,
           point.field,
           point.law,
+          point.chooser,
           point.particle,
           numbers_of(point.place),
           numbers_of(point.normal),
           numbers_of(point.velocity),
+          numbers_of(point.centre),
           point.gap,
           point.area};
 }
@@ -70,6 +72,8 @@ ContactPoint received(const SentPoint& sent) {
           vector_of(sent.place),
           vector_of(sent.normal),
           vector_of(sent.velocity),
+          vector_of(sent.centre),
+          sent.chooser,
           sent.gap,
           sent.area};
 }
@@ -88,8 +92,9 @@ void PointSearch::find_jobs(double band) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const RigidBody& body = *bodies_[b];
     const Box bounds = body.world_bounds().grown(band);
-    for (std::size_t f = 0; f < fields_.size(); ++f) {
-      const BlockTable& blocks = fields_[f]->blocks;
+    const int kinds = static_cast<int>(fields_.size()) + (choice_ != nullptr ? 1 : 0);
+    for (int f = 0; f < kinds; ++f) {
+      const BlockTable& blocks = grid_of(f).blocks;
       for (int owner = 0; owner < blocks.owners(); ++owner) {
         const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
         const Vec3 middle =
@@ -99,7 +104,7 @@ void PointSearch::find_jobs(double band) {
             !body.surface().within(body.pose().to_body(middle), reach, point)) {
           continue;
         }
-        jobs_.push_back({static_cast<int>(f), owner, static_cast<int>(b)});
+        jobs_.push_back({f, owner, static_cast<int>(b)});
       }
     }
   }
@@ -131,6 +136,7 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
       farthest + layout.smallest_cell();  // in a step neither material nor tool moves by more than a cell
   const double watched = kWatched * layout.smallest_cell();
   const RigidBody& body = *bodies_[job.body];
+  const bool of_patch = job.field == static_cast<int>(fields_.size());
   const auto look_at = [&](std::size_t s, int p) {
     const ParticleSet& set = sets_[s];
     Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
@@ -155,7 +161,9 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
     point.place = centre - reach * point.normal;
     point.velocity = body.velocity_at(point.place);
     point.body = job.body;
-    point.field = job.field;
+    point.field = of_patch ? set.field : job.field;
+    point.centre = centre;
+    point.chooser = of_patch ? static_cast<int>(s) : -1;
     point.law = static_cast<int>(job.body * sets_.size() + s);
     point.particle = set.id[p];
     double volume = stretch_of_section<Geometry>(set, p) * across_;
@@ -164,7 +172,7 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
     point.area = volume / (2.0 * box);
     found.push_back(point);
   };
-  const int owner = fields_[job.field]->first_owner + job.owner;
+  const int owner = grid_of(job.field).first_owner + job.owner;
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     const ParticleSet& set = sets_[s];
     const auto clear = [&](std::uint32_t first, std::uint32_t last) {  // true if groups are out of reach
@@ -207,14 +215,16 @@ void PointSearch::find_in(double dt) {
 void PointSearch::gather() {
   std::vector<SentPoint> own;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
-    const BlockTable& blocks = fields_[jobs_[i].field]->blocks;
+    const BlockTable& blocks = grid_of(jobs_[i].field).blocks;
     const std::uint64_t block = blocks.key(blocks.owner_block(jobs_[i].owner));
     for (const ContactPoint& point : of_job_[i]) own.push_back(sent(point, block));
   }
   std::vector<SentPoint> all = gather_list(*ranks_, own);
-  std::stable_sort(all.begin(), all.end(), [](const SentPoint& a, const SentPoint& b) {
-    return std::tie(a.body, a.field, a.block) < std::tie(b.body, b.field, b.block);
-  });
+  const auto place = [](const SentPoint& point) {  // patches come after fields, by block alone
+    const bool patch = point.chooser >= 0;
+    return std::make_tuple(point.body, patch, patch ? 0 : point.field, point.block);
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const SentPoint& a, const SentPoint& b) { return place(a) < place(b); });
   for (const SentPoint& one : all) points_.push_back(received(one));
 }
 

@@ -37,11 +37,9 @@ void CrackFields::look_around(int first, const Vec2& place, const Vec2& from) co
 }
 
 CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, const std::array<int, 2>& node) const {
-  const GridLayout& layout = choice_.grid().layout;
   const Place own = place_of_node(first, node);
   if (own.number < 0) return {};
-  Vec2 place;
-  for (int k = 0; k < 2; ++k) place[k] = layout.origin(k) + layout.cell(k) * node[k];
+  const Vec2 place = node_place(node);
   CracksBetween between;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     if (around_[c].points < 2) continue;
@@ -52,6 +50,35 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
     if (between.count == 2) return {};
     between.across[between.count++] = {static_cast<int>(c), found.above};
   }
+  return field_at(first, own, between);
+}
+
+// As find_slot(), of a node that the particle need not reach.
+FieldNode CrackFields::node_of(int set, const Vec3& from, const std::array<int, 3>& node) const {
+  const int first = sets_[set].field;
+  const Place own = place_of_node(first, {node[0], node[1]});
+  if (own.number < 0) return {};
+  const Vec2 particle(from.x(), from.z()), place = node_place({node[0], node[1]});
+  CracksBetween between;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    if (!cracks_[c].felt || cracks_[c].divides[set] == 0) continue;
+    const int crack = static_cast<int>(c);
+    const Part part = part_between(crack, whole(crack), particle.cwiseMin(place), particle.cwiseMax(place));
+    if (part.points < 2) continue;
+    const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, particle, place);
+    if (!found.crosses) continue;
+    if (between.count == 2) return {};
+    between.across[between.count++] = {crack, found.above};
+  }
+  return field_at(first, own, between);
+}
+
+Vec2 CrackFields::node_place(const std::array<int, 2>& node) const {
+  const GridLayout& layout = choice_.grid().layout;
+  return {layout.origin(0) + layout.cell(0) * node[0], layout.origin(1) + layout.cell(1) * node[1]};
+}
+
+CrackFields::NodeOfField CrackFields::field_at(int first, const Place& own, const CracksBetween& between) const {
   if (between.count == 0) return {first, {own.number, own.local}};
   const int at = node_at_[first][own.index];
   const int slot = at < 0 ? -1 : nodes_[at].field_of(between);

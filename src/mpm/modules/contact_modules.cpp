@@ -118,10 +118,13 @@ void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, s
   const SimulationDefinition& definition = parts.definition;
   PointContactSettings settings{definition.geometry, definition.method.shape,
                                 definition.across(), parts.threads,
-                                definition.gravity,  has_pairs(definition),
+                                definition.gravity,  has_pairs(definition) || parts.choice != nullptr,
                                 parts.heat,          definition.contact.sharp_edges,
-                                parts.ranks,         body_contact_settings(definition)};
-  parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
+                                parts.ranks,         body_contact_settings(definition),
+                                parts.choice};
+  auto contact = std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings);
+  parts.at_points = contact.get();
+  parts.modules.add(std::move(contact));
 }
 
 /// One mark for each velocity field, not 0 for those of bodies that cracks divide.

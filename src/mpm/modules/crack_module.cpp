@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "mpm/crack/crack_cells.hpp"
+#include "mpm/contact/point_contact.hpp"
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/crack/periodic_reach.hpp"
 #include "mpm/definition/definition.hpp"
@@ -132,6 +133,7 @@ void add_cracks(RunParts& parts) {
   // Contours and what lies ahead of tips, with the nodes around them.
   const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);
   made->reach = reach;
+  if (parts.at_points != nullptr) parts.at_points->divide(*made->chosen);
   if (parts.halo != nullptr) {
     parts.halo->add_everywhere(
         [chosen = made->chosen.get(), reach](const std::array<int, 3>& block) { return chosen->near(block, reach); });

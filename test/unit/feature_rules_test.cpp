@@ -50,10 +50,6 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::contact_at_nodes:
       d.contact.method = ContactMethod::nodes;
       break;
-    case Feature::contact_at_points:
-      d.contact.method = ContactMethod::points;
-      add_body(d).sides = Sides::one;
-      break;
     case Feature::cracks:
       d.cracks.list.emplace_back();
       break;
@@ -165,15 +161,10 @@ int processes(const std::vector<Feature>& features) {
   return std::find(features.begin(), features.end(), Feature::ranks) == features.end() ? 1 : 2;
 }
 
-/// Features that a definition has when it is asked for one of them: tools bring contact, at points without another
-/// word.
+/// Features that a definition has when it is asked for one of them.
 std::set<Feature> had_by(const std::vector<Feature>& asked) {
   std::set<Feature> had(asked.begin(), asked.end());
   const auto has = [&](Feature feature) { return had.count(feature) > 0; };
-  for (const Feature tool : {Feature::collisions, Feature::particle_tools, Feature::divided_bodies,
-                             Feature::free_bodies, Feature::rings, Feature::thin_tools, Feature::tool_laws}) {
-    if (has(tool) && !has(Feature::contact_at_nodes)) had.insert(Feature::contact_at_points);
-  }
   if (has(Feature::sleep_damping)) had.insert(Feature::sleep);
   if (has(Feature::oblique_biot)) had.insert(Feature::pore_pressure);
   if (has(Feature::pore_pressure) || has(Feature::tool_heat)) had.insert(Feature::transport);
@@ -186,10 +177,7 @@ bool exclude_each_other(Feature a, Feature b) {
   const auto is_geometry = [](Feature feature) {
     return feature == Feature::line || feature == Feature::plane_stress || feature == Feature::solid;
   };
-  const auto is_contact = [](Feature feature) {
-    return feature == Feature::contact_at_nodes || feature == Feature::contact_at_points;
-  };
-  return a != b && ((is_geometry(a) && is_geometry(b)) || (is_contact(a) && is_contact(b)));
+  return a != b && is_geometry(a) && is_geometry(b);
 }
 
 // Each feature is found where it was asked for, or is brought by one, and nowhere else; a pair is refused if a row of

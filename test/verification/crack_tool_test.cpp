@@ -55,8 +55,7 @@ TEST(CrackTool, AWedgeDrivesHalvesApartAsItDoesTwoBodies) {
   page.problem(
       "Two beams of foam (67 MPa, 31 mm wide, 100 mm long, 20 mm thick, fixed at the foot) that a crack divides over "
       "all of their length. A wedge of 30 degrees is driven between their ends at 0.4 m/s, with a friction of 0.2; the "
-      "force on it is averaged from 2.8 to 3.6 mm of depth. Cells of 2 mm; contact is at nodes, the only one beside "
-      "cracks.");
+      "force on it is averaged from 2.8 to 3.6 mm of depth. Cells of 2 mm; contact is at nodes.");
   page.exact("the same beams as two bodies that meet the wedge at points",
              "another method of contact, without a crack");
   for (const char* method : {"flip: 1", "xpic: 2", "fmpm: 2"}) {

@@ -61,6 +61,7 @@ std::vector<std::string> coarse(const std::string& name) {
   // Cracks have their place in the grid: fewer steps in place of coarser cells.
   if (name == "double_cantilever") return {"time.end=0.001"};
   if (name == "wedge_block") return {"time.end=0.012"};
+  if (name == "wedge_split") return {"time.end=0.003"};
   if (name == "speed_block_3d_million") return {"grid.cell=0.1"};
   if (name.rfind("speed_", 0) == 0) return {"grid.cell=0.04"};
   return {};

@@ -24,7 +24,6 @@ enum class Feature {
   collisions,
   conditions,
   contact_at_nodes,
-  contact_at_points,
   cracks,
   damping,
   divided_bodies,

@@ -259,11 +259,6 @@ void refuse_unused(const Map& map, const Scene& scene) {
 
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
   const auto section = root.find("contact");
-  const bool names_method = section && section->is_map() && contact_map(*section).find("method");
-  if (with_tools && !names_method && root.find("cracks")) {
-    scene.definition.contact.method = ContactMethod::nodes;
-    scene.choices.emplace_back("contact.method", "nodes: contact at points does not see material near a crack");
-  }
   if (!section) return {};
   const Map map = contact_map(*section);
   const ContactLaw law = read_contact_law(map, false);

@@ -1,6 +1,6 @@
-// What a scene is made of, as factors with choices, and the scene of a row of choices: a block of 16 by 6 cells of 0.1 m
-// that moves, on a floor, under a tool, beside another body, with a crack, heat and so on. All materials carry waves of some 40 m/s, so that
-// every row takes a few dozen steps.
+// What a scene is made of, as factors with choices, and the scene of a row of choices: a block of 16 by 6 cells of 0.1
+// m that moves, on a floor, under a tool, beside another body, with a crack, heat and so on. All materials carry waves
+// of some 40 m/s, so that every row takes a few dozen steps.
 #pragma once
 
 #include <fmt/format.h>
@@ -43,7 +43,8 @@ inline const std::vector<Factor>& factors() {
   static const std::vector<Factor> all = {
       {"geometry", {"plane_strain", "axisymmetric", "plane_stress", "solid"}},
       {"law",
-       {"drucker_prager", "linear_elastic", "neo_hookean", "viscoelastic", "j2_plasticity", "johnson_cook", "mohr_coulomb", "mu_i", "cam_clay", "norsand", "newtonian_fluid", "ideal_gas"}},
+       {"drucker_prager", "linear_elastic", "neo_hookean", "viscoelastic", "j2_plasticity", "johnson_cook",
+        "mohr_coulomb", "mu_i", "cam_clay", "norsand", "newtonian_fluid", "ideal_gas"}},
       {"transport", {"dry", "heat", "solvent", "water", "hot_tool", "heat_and_solvent"}},
       {"crack", {"whole", "open", "glued"}},
       {"sleep", {"awake", "sleep"}},
@@ -66,13 +67,13 @@ inline const std::vector<Factor>& factors() {
 
 /// What a twin's scene has otherwise, though its answer is the same.
 struct Twin {
-  double aside = 0.0;        ///< all that does not fill the grid lies so far along x [m]
-  bool sleeps = true;        ///< false: without sleep
-  bool transports = true;    ///< false: without what is transported
-  bool cut = true;           ///< false: without cracks
-  bool joined = false;       ///< faces of cracks move as one
-  double lifted = 0.0;       ///< tools begin so far above [m]
-  bool tools = true;         ///< false: without tools
+  double aside = 0.0;      ///< all that does not fill the grid lies so far along x [m]
+  bool sleeps = true;      ///< false: without sleep
+  bool transports = true;  ///< false: without what is transported
+  bool cut = true;         ///< false: without cracks
+  bool joined = false;     ///< faces of cracks move as one
+  double lifted = 0.0;     ///< tools begin so far above [m]
+  bool tools = true;       ///< false: without tools
 };
 
 /// Scene of a row of choices, and those of its twins.
@@ -106,12 +107,14 @@ class Block {
   std::string text(const Twin& twin = {}) const {
     const double aside = twin.aside, fills = is_around() ? 0.0 : aside;
     std::string text = fmt::format("geometry: {}\ngrid: {{cell: 0.1, min: {}, max: {}{}}}\n", choice(geometry),
-                                   at(round() ? 0.0 : is_around() ? 0.0 : -0.4, 0.0, 0.0),
+                                   at(round()       ? 0.0
+                                      : is_around() ? 0.0
+                                                    : -0.4,
+                                      0.0, 0.0),
                                    at(is_around() ? 1.6 : 2.4, 0.3, 1.6), has(leaving) ? ", leave: {limit: 4}" : "");
     text += "time: {end: 24 ms, sync: 4 ms" + std::string(is(update, "implicit") ? "" : ", step: 0.5 ms") + "}\n" +
             method();
-    text += fmt::format("materials: [{{name: m, {}{}}}]\n", material(),
-                        twin.transports ? of_transport() : "");
+    text += fmt::format("materials: [{{name: m, {}{}}}]\n", material(), twin.transports ? of_transport() : "");
     text += "bodies:\n" + body("block", fills, fills + (has(bodies) ? 0.8 : 1.6));
     if (has(bodies)) text += body("side", fills + 0.8, fills + 1.6);
     if (has(asleep)) {
@@ -119,8 +122,9 @@ class Block {
                           at(aside + 0.6, 0.0, 1.2), at(aside + 1.0, 0.3, 1.4));
       if (twin.sleeps) text += "sleep: {speed: 1e-6, after: 4 ms, from_start: true}\n";
     }
-    return text + boundaries(aside) + contact(twin.tools) + (has_tool() && twin.tools ? tools(aside, twin.lifted) : "") +
-           loads(aside) + (twin.transports ? quantities(twin.tools) : "") + (twin.cut ? cracks(aside, twin.joined) : "");
+    return text + boundaries(aside) + contact(twin.tools) +
+           (has_tool() && twin.tools ? tools(aside, twin.lifted) : "") + loads(aside) +
+           (twin.transports ? quantities(twin.tools) : "") + (twin.cut ? cracks(aside, twin.joined) : "");
   }
 
  private:
@@ -130,8 +134,8 @@ class Block {
   }
 
   std::string method() const {
-    std::string text = fmt::format("method: {{shape: {}, update: {}, precision: {}", choice(shape), choice(update),
-                                   choice(precision));
+    std::string text =
+        fmt::format("method: {{shape: {}, update: {}, precision: {}", choice(shape), choice(update), choice(precision));
     if (is(transfer, "mixed")) text += ", transfer: {flip: 0.6, xpic: 2, every: 5}";
     if (is(transfer, "flip") && !is(update, "implicit")) text += ", transfer: flip";
     if (is(transfer, "xpic")) text += ", transfer: {xpic: 2}";
@@ -184,15 +188,17 @@ class Block {
   }
 
   std::string body(const char* name, double from, double to) const {
-    return fmt::format("  - {{name: {}, material: m, shape: {{box: {{min: {}, max: {}}}}}, initial: {{velocity: {}}}}}\n",
-                       name, at(from, 0.0, 0.0), at(to, 0.3, 0.6),
-                       solid() ? "[\"0.1*sin(5*z)\", 0, \"-0.3*z\"]" : round() ? "[0, \"-0.3*z\"]"
-                                                                              : "[\"0.1*sin(5*z)\", \"-0.3*z\"]");
+    return fmt::format(
+        "  - {{name: {}, material: m, shape: {{box: {{min: {}, max: {}}}}}, initial: {{velocity: {}}}}}\n", name,
+        at(from, 0.0, 0.0), at(to, 0.3, 0.6),
+        solid()   ? "[\"0.1*sin(5*z)\", 0, \"-0.3*z\"]"
+        : round() ? "[0, \"-0.3*z\"]"
+                  : "[\"0.1*sin(5*z)\", \"-0.3*z\"]");
   }
 
   std::string boundaries(double aside) const {
     std::string text = "boundaries: {z";
-    text += has(periodic) && round()      ? ": periodic"
+    text += has(periodic) && round()  ? ": periodic"
             : is(floor_kind, "rough") ? "_min: {friction: 0.4}"
                                       : "_min: " + choice(floor_kind);
     if (solid()) text += ", y_min: slip, y_max: slip";
@@ -218,10 +224,9 @@ class Block {
     const double half = thin ? 0.02 : 0.14, middle = round() ? 0.0 : aside + 0.35;
     text += "rigid_bodies:\n";
     const auto one = [&](const char* name, double x, double z, const char* velocity, const std::string& more) {
-      const std::string form = round() ? fmt::format("cylinder: {{radius: {}, height: 0.3}}", half)
-                               : solid()
-                                   ? fmt::format("box: {{size: [{}, 0.2, 0.3]}}", 2 * half)
-                                   : fmt::format("box: {{size: [{}, 0.3]}}", 2 * half);
+      const std::string form = round()   ? fmt::format("cylinder: {{radius: {}, height: 0.3}}", half)
+                               : solid() ? fmt::format("box: {{size: [{}, 0.2, 0.3]}}", 2 * half)
+                                         : fmt::format("box: {{size: [{}, 0.3]}}", 2 * half);
       text += fmt::format("  - {{name: {}, shape: {{{}}}, pose: {{position: {}}}, {}, friction: 0.3{}}}\n", name, form,
                           at(x, 0.15, z),
                           moved ? fmt::format("free: {{density: 2000, velocity: {}}}", velocity)
@@ -230,10 +235,10 @@ class Block {
     };
     const char* down = solid() ? "[0, 0, -2]" : "[0, -2]";
     one("tool", middle, 0.751 + lifted, down,
-        thin                       ? ", sides: two"
-        : is(tool, "particles")    ? ", normals: particles, sides: one"
-        : is(tool, "colliding")    ? ", collide: true, sides: one"
-                                   : ", sides: one");
+        thin                    ? ", sides: two"
+        : is(tool, "particles") ? ", normals: particles, sides: one"
+        : is(tool, "colliding") ? ", collide: true, sides: one"
+                                : ", sides: one");
     if (is(tool, "colliding")) one("stone", middle, 1.052 + lifted, down, ", collide: true, sides: one");
     return text;
   }
@@ -244,11 +249,13 @@ class Block {
                          has(bodies) ? "side" : "block", solid() ? "[500, 0, 0]" : "[500, 0]");
     }
     if (is(load, "body_force")) {
-      return fmt::format("loads: [{{body_force: {{body: block, acceleration: {}}}}}]\n", solid() ? "[0, 0, -3]" : "[0, -3]");
+      return fmt::format("loads: [{{body_force: {{body: block, acceleration: {}}}}}]\n",
+                         solid() ? "[0, 0, -3]" : "[0, -3]");
     }
     if (is(load, "particle_force")) {
-      return fmt::format("loads: [{{particle_force: {{body: block, force: {}, region: {{box: {{min: {}, max: {}}}}}}}}}]\n",
-                         solid() ? "[0, 0, -20]" : "[0, -200]", at(aside + 0.4, 0.0, 0.2), at(aside + 0.8, 0.3, 0.4));
+      return fmt::format(
+          "loads: [{{particle_force: {{body: block, force: {}, region: {{box: {{min: {}, max: {}}}}}}}}}]\n",
+          solid() ? "[0, 0, -20]" : "[0, -200]", at(aside + 0.4, 0.0, 0.2), at(aside + 0.8, 0.3, 0.4));
     }
     return "";
   }

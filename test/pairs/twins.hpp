@@ -1,9 +1,9 @@
 // Runs of a row's scene and of its twins, and what they have to agree in.
 //
 // The answer of a twin is known from the features alone: a checkpoint in the middle and another number of threads give
-// the same bits; ranks, another place, sleep of a body at rest, heat that expands nothing, faces that move as one, and a
-// tool that meets nothing give the same motion. Runs that add up in another order differ by round-off, which yield and
-// contact let grow over the 48 steps: kAlike is 1e4 times that of a sum.
+// the same bits; ranks, another place, sleep of a body at rest, heat that expands nothing, faces that move as one, and
+// a tool that meets nothing give the same motion. Runs that add up in another order differ by round-off, which yield
+// and contact let grow over the 48 steps: kAlike is 1e4 times that of a sum.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,9 +22,9 @@
 
 namespace mpm::pairs {
 
-constexpr double kAlike = 1e-9;         ///< of velocity and force, in double precision
-constexpr double kAlikeSingle = 2e-3;   ///< the same in single: 1e4 times its round-off, 1e-7
-constexpr int kPeriods = 6;             ///< sync periods of a scene
+constexpr double kAlike = 1e-9;        ///< of velocity and force, in double precision
+constexpr double kAlikeSingle = 2e-3;  ///< the same in single: 1e4 times its round-off, 1e-7
+constexpr int kPeriods = 6;            ///< sync periods of a scene
 
 /// What is compared.
 struct Outcome {
@@ -54,7 +54,8 @@ inline Outcome outcome_of(Simulation& run) {
   outcome.energies = state.energy.list();
   outcome.closed = state.energy.closed();
   outcome.asleep = state.number("asleep");
-  for (int b = 0; b < static_cast<int>(run.bodies().size()); ++b) outcome.forces.push_back(run.take_contact(b).mean.force);
+  for (int b = 0; b < static_cast<int>(run.bodies().size()); ++b)
+    outcome.forces.push_back(run.take_contact(b).mean.force);
   for (const PairReport& pair : run.take_pairs()) outcome.pairs.push_back(pair.force);
   std::uint64_t moving = run.particles();
   for (const DeformableBody& body : run.definition().bodies) {
@@ -127,8 +128,8 @@ inline double apart(const std::vector<double>& a, const std::vector<double>& b, 
 }
 
 /// `aside`: how far the twin lies along x; `fields`: false where its particles have other numbers.
-inline void expect_alike(const Outcome& twin, const Outcome& plain, double part, double aside = 0.0, double around = 0.0,
-                         bool fields = true) {
+inline void expect_alike(const Outcome& twin, const Outcome& plain, double part, double aside = 0.0,
+                         double around = 0.0, bool fields = true) {
   const double speed = std::max(largest_of(plain.velocity), 0.1);
   if (fields) {
     for (int k = 0; k < 3; ++k) EXPECT_LE(apart(twin.velocity[k], plain.velocity[k]), part * speed) << "velocity " << k;
@@ -150,8 +151,8 @@ inline double part_of(const Block& block) { return block.is(precision, "single")
 /// Contact at points and implicit steps sweep over blocks in their order until changes are below 1e-3 of the largest
 /// velocity (contact/point_solver.cpp), and adhesion gives way at a threshold; another place has another order.
 inline double part_elsewhere(const Block& block) {
-  const bool swept = (block.has_tool() && !block.is(tool, "nodes") && !block.is(tool, "particles")) ||
-                     block.is(update, "implicit");
+  const bool swept =
+      (block.has_tool() && !block.is(tool, "nodes") && !block.is(tool, "particles")) || block.is(update, "implicit");
   return swept ? std::max(part_of(block), block.is(tool, "adhesive") ? 5e-2 : 1e-2) : part_of(block);
 }
 

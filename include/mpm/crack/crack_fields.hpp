@@ -117,9 +117,9 @@ class CrackFields final : public SideOfCracks {
     Chosen chosen;
   };
   struct Tile {
-    int block;                  ///< block of NodeChoice::blocks()
-    std::array<int, 3> corner;  ///< number of its first node along each axis
-    std::vector<LinePart> parts;    ///< part of each crack
+    int block;                    ///< block of NodeChoice::blocks()
+    std::array<int, 3> corner;    ///< number of its first node along each axis
+    std::vector<LinePart> parts;  ///< part of each crack
   };
 
   /// A node in the first field of a group: its block's number (-1: none), its place there, and in node_at_.
@@ -170,8 +170,8 @@ class CrackFields final : public SideOfCracks {
   Communicator* ranks_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
-  std::vector<LinePart> near_;                         ///< part of each crack, near a particle
-  mutable std::vector<LinePart> around_;               ///< the same near a place and the nodes around it
+  std::vector<LinePart> near_;                     ///< part of each crack, near a particle
+  mutable std::vector<LinePart> around_;           ///< the same near a place and the nodes around it
   Chosen wanted_;                                  ///< by a particle
   std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< jumps of wanted_, set only where pairs jump [m]
   std::vector<Patch> patches_;

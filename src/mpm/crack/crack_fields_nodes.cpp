@@ -62,13 +62,13 @@ FieldNode CrackFields::node_of(int set, const Vec3& from, const std::array<int, 
   CracksBetween between;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     if (!cracks_[c].felt || cracks_[c].divides[set] == 0) continue;
-    const int crack = static_cast<int>(c);
-    const Part part = part_between(crack, whole(crack), particle.cwiseMin(place), particle.cwiseMax(place));
+    const Chain& chain = cracks_[c].chain;
+    const LinePart part = part_between(chain, whole_line(chain), particle.cwiseMin(place), particle.cwiseMax(place));
     if (part.points < 2) continue;
-    const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, particle, place);
+    const Crossing found = find_crossing(chain.line().data() + part.first, part.points, particle, place);
     if (!found.crosses) continue;
     if (between.count == 2) return {};
-    between.across[between.count++] = {crack, found.above};
+    between.across[between.count++] = {static_cast<int>(c), found.above};
   }
   return field_at(first, own, between);
 }

@@ -1,8 +1,8 @@
 // The explicit cracks of a definition as modules.
 #include <fmt/core.h>
 
-#include "mpm/crack/crack_cells.hpp"
 #include "mpm/contact/point_contact.hpp"
+#include "mpm/crack/crack_cells.hpp"
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/crack/periodic_reach.hpp"
 #include "mpm/definition/definition.hpp"

@@ -245,7 +245,7 @@ TEST(FeatureRules, NameBothWhyAndWhatToDo) {
 
 // A Simulation asks the table for what is made in C++.
 TEST(FeatureRules, HoldForDefinitionsMadeInCpp) {
-  const std::vector<std::vector<Feature>> pairs = {{Feature::cracks, Feature::free_bodies},
+  const std::vector<std::vector<Feature>> pairs = {{Feature::cracks, Feature::implicit_steps},
                                                    {Feature::absorbing_faces, Feature::pore_pressure},
                                                    {Feature::pore_pressure, Feature::plane_stress}};
   for (const std::vector<Feature>& pair : pairs) {

@@ -81,7 +81,7 @@ void TipValues::add_physics(std::size_t s, std::uint32_t p, AreaSample& sample) 
   const Vec2 by_free = undeformed(slope(2)), by_pressure = undeformed(slope(3)), by_content = undeformed(slope(4));
   sample.free_force = (traces_[s][p] - 3.0 * energies_[s][p]) / (1.0 + grown) * by_free;
   sample.pressure_slope = by_pressure;
-  sample.eigenstrain_slope = {};
+  sample.eigenstrain_slope = Vec2::Zero();
   for (int k = 0; k < 2; ++k) {
     sample.eigenstrain_slope[k] = physics.eigenstrain(by_pressure[k], by_content[k], by_free[k]);
   }

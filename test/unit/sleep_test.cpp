@@ -80,7 +80,7 @@ void expect_own_numbers(const ParticleSet& set, int asleep) {
 }
 
 SleepingBlocks::Sleeper sleeper(int owner) {
-  return {{0, static_cast<std::uint64_t>(10 + owner)}, owner, 3.0, std::make_unique<BlockForces>()};
+  return {{0, static_cast<std::uint64_t>(10 + owner)}, owner, 3.0, 0.0, std::make_unique<BlockForces>()};
 }
 
 const GridLayout kLayout(2, Vec3(1, 1, 1), Vec3::Zero(), Vec3(16, 1, 16));
@@ -90,7 +90,7 @@ TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
   std::vector<ParticleSet> sets{numbered_particles(40)};
   ParticleSet& set = sets[0];
   set.begin = {0, 7, 20, 33, 40};
-  SleepingBlocks asleep(sets, kLayout);
+  SleepingBlocks asleep(sets, kLayout, false);
   std::vector<SleepingBlocks::Sleeper> two;
   two.push_back(sleeper(0));
   two.push_back(sleeper(2));
@@ -152,7 +152,7 @@ TEST(SleepingBlocks, FollowsParticlesThatComeAndGo) {
     std::vector<ParticleSet> sets{numbered_particles(40)};
     ParticleSet& set = sets[0];
     set.begin = {0, 7, 20, 33, 40};
-    SleepingBlocks asleep(sets, kLayout);
+    SleepingBlocks asleep(sets, kLayout, false);
     std::vector<SleepingBlocks::Sleeper> three;
     for (const int owner : {0, 1, 3}) three.push_back(sleeper(owner));
     asleep.put_to_sleep(three);

@@ -301,7 +301,9 @@ TEST_F(RunSceneOverRanks, TellsOnceThatARecordingIsNotThere) {
   EXPECT_EQ(code, static_cast<int>(RunSceneResult::bad_input));
 }
 
-// The first rank chooses, and all run what it has chosen: one process that is told the choice has the same forces. 3 s.
+// The first rank chooses, and all run what it has chosen: one process that is told the choice has the same forces. Sums
+// of two ranks have other round-off, 1e-16, which yielding sand and sweeps of contact let grow; another choice is off
+// by per cents. 1 s.
 TEST_F(RunSceneOverRanks, AimsAtATargetTogether) {
   options_.scene = file("pushed.yaml");
   std::ofstream(options_.scene)
@@ -328,7 +330,7 @@ TEST_F(RunSceneOverRanks, AimsAtATargetTogether) {
   options_.set.clear();
   std::ostringstream out, err;
   ASSERT_EQ(run_scene(options_, out, err, false, [] { return false; }), RunSceneResult::done) << err.str();
-  EXPECT_NEAR(summary()["contact_impulse"]["tool"][2], impulse, 1e-10 * impulse);
+  EXPECT_NEAR(summary()["contact_impulse"]["tool"][2], impulse, 1e-8 * impulse);
 }
 
 // To the bit on as many ranks, to round-off on others.

@@ -98,6 +98,32 @@ void check_identities(ShapeKind shape) {
     if (!Geometry::kHoop || k > 0) continue;
     for (const double hoop : body.taken[2]) EXPECT_NEAR(hoop, 1.0, 16 * kRounding<T>);
   }
+  body.transfer->slopes(0, place, body.to());
+  for (int k = 0; k < kDim; ++k) {
+    for (const double slope : body.taken[k]) EXPECT_NEAR(slope, 1.0, 16 * kRounding<T>);
+  }
+
+  // The place whose slope a gradient takes is the slope of a parabola, which splines know at the particle itself.
+  std::array<std::vector<double>, 3> places;
+  for (int k = 0; k < kDim; ++k) {
+    NodalField parabola = body.nodal(1);
+    scene.each_node([&](int b, int n, const std::array<int, 3>& at) {
+      parabola.at(b, 0, n) = 0.5 * std::pow(scene.node_position(at[k]), 2);
+    });
+    body.transfer->gradient(0, parabola, body.to());
+    places[k].assign(body.taken[k].begin(), body.taken[k].begin() + scene.set().size());
+  }
+  body.transfer->slope_lead(body.to());
+  for (int k = 0; k < kDim; ++k) {
+    for (int p = 0; p < scene.set().size(); ++p) {
+      EXPECT_NEAR(body.taken[k][p], places[k][p] - scene.set().x[k][p], kRounding<T> * 64 * cell);
+      if (shape == ShapeKind::bspline2) {
+        EXPECT_NEAR(body.taken[k][p], 0.0, kRounding<T> * 64 * cell);
+      } else {
+        EXPECT_LE(std::abs(body.taken[k][p]), (0.5 + kRounding<T>)*cell);
+      }
+    }
+  }
 
   // All that particles give arrives; gradients give as much as they take.
   NodalField found = body.nodal(1);

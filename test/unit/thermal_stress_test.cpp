@@ -1,8 +1,8 @@
-// Stress of a temperature that varies in space, on grids of 10, 20 and 40 cells: where it is of second order and where
-// of first. With the shape functions whose strain is that of a cell, a particle's temperature is its own and its strain
-// along an axis that of its cell: its stress is off by what the free strain changes over a quarter of a cell, one way
-// on one side of the cell's centre and the other way on the other, so that means over a cell know nothing of it. With
-// bspline2 strain varies as the temperature does. Cost: 5 s.
+// Stress of a temperature that varies in space, on grids of several sizes. What nothing holds has none where the
+// temperature is linear: strain along an axis and free strain along it are taken at the same place. In a body that is
+// held, stress along an axis is still of first order at the particles: there stress across the axis varies within a
+// cell, and the strain of a cell does not follow what Poisson's ratio makes of that, as in a loaded body without heat.
+// Means over a cell are of second order. Cost: 7 s.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -99,9 +99,11 @@ transport: {{temperature: {{reference: 300, initial: "300+100*ln(0.2/x)/ln(2)", 
   static inline const double kLog = std::log(kOuter / kInner);
 };
 
-// The radial stress is off by (lambda + 2 mu) (1 + nu) / (1 - nu) alpha T' of a quarter of a cell: at the bore of 20
-// cells 6.3 % of the largest hoop stress, and what is lost at the rim itself.
-TEST(ThermalStress, OfATubeIsOfSecondOrderInItsCells) {
+// Radial strain varies by (1 + nu) / (1 - nu) alpha T' a metre, of which the free strain is one part in 1.86; the rest
+// is missed over a quarter of a cell: (lambda + 2 mu) of it is at the bore of 20 cells 2.9 % of the largest hoop
+// stress, and what is lost at the rim itself. A pressure in a cold tube of 10 cells gives 5.1 % (verification, Lame's
+// cylinder).
+TEST(ThermalStress, OfAHeldTubeIsOfSecondOrderInItsCells) {
   const double largest = std::abs(WarmTube::hoop(WarmTube::kInner));
   for (const char* shape : {"ugimp", "cpdi", "ugimp_stretch"}) {
     std::vector<Errors> hoop, radial;
@@ -116,9 +118,82 @@ TEST(ThermalStress, OfATubeIsOfSecondOrderInItsCells) {
       EXPECT_NEAR(order(hoop[i].particle, hoop[i + 1].particle), 1.0, 0.1) << shape;
     }
     EXPECT_LT(hoop[1].cell, 0.001) << shape;
-    EXPECT_NEAR(hoop[1].particle, 0.030, 0.003) << shape;
-    EXPECT_NEAR(radial[1].particle, 0.070, 0.007) << shape;
+    EXPECT_NEAR(hoop[1].particle, 0.0189, 0.002) << shape;
+    EXPECT_NEAR(radial[1].particle, 0.043, 0.004) << shape;
   }
+}
+
+/// The largest and the root mean square of stress components over E alpha dT.
+struct Stress {
+  double largest = 0.0, mean_square = 0.0;
+};
+Stress stress_of(const Simulation& run, const std::vector<const char*>& components) {
+  Stress stress;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const char* component : components) {
+    for (const double value : field_of(run, component)) {
+      const double part = value / (kYoung * kGrowth);
+      stress.largest = std::max(stress.largest, std::abs(part));
+      sum += part * part, ++count;
+    }
+  }
+  stress.mean_square = std::sqrt(sum / static_cast<double>(count));
+  return stress;
+}
+
+// A free bar of 1 m by 0.4 m that is 100 K warmer at its end than at its start: it bends and stretches without stress,
+// whatever its law. Taken at different places, strain and free strain leave (lambda + 2 mu) alpha T' a quarter of a
+// cell: 1.4 % of E alpha dT at 20 cells. At the ends the free strain is taken from less than a neighbourhood.
+TEST(ThermalStress, OfAFreeBarIsNextToNothing) {
+  const auto bar = [](double cell, const char* shape) {
+    return at_rest(fmt::format(R"yaml(geometry: plane_stress
+grid: {{cell: {}, min: [-0.3, -0.3], max: [1.3, 0.7]}}
+time: {{end: 1, sync: 0.02}}
+method: {{shape: {}, damping: 60}}
+bodies: [{{name: bar, material: m, shape: {{box: {{min: [0, 0], max: [1, 0.4]}}}}}}]
+transport: {{temperature: {{reference: 300, initial: "300+100*x", compression_heat: off}}}}
+)yaml",
+                               cell, shape),
+                   1.0);
+  };
+  for (const char* shape : {"ugimp", "ugimp_stretch", "cpdi"}) {
+    const Stress coarse = stress_of(bar(0.05, shape), {"sxx"}), fine = stress_of(bar(0.025, shape), {"sxx"});
+    EXPECT_LT(coarse.largest, 0.0012) << shape;
+    EXPECT_LT(coarse.mean_square, 0.0003) << shape;
+    EXPECT_GT(order(coarse.mean_square, fine.mean_square), 1.6) << shape;
+  }
+}
+
+TEST(ThermalStress, OfAFreeBarIsNextToNothingAboutAnAxisAndInSpace) {
+  const char* const rest =
+      "transport: {temperature: {reference: 300, initial: \"300+100*z\", compression_heat: off}}\n"
+      "time: {end: 1, sync: 0.02}\nmethod: {damping: 60}\n";
+  const Simulation round = at_rest(std::string(rest) + R"yaml(geometry: axisymmetric
+grid: {cell: 0.05, min: [0, -0.3], max: [0.7, 1.3]}
+bodies: [{name: bar, material: m, shape: {box: {min: [0, 0], max: [0.4, 1]}}}]
+)yaml",
+                                   1.0);
+  EXPECT_LT(stress_of(round, {"sxx", "syy", "szz"}).largest, 0.004);
+  EXPECT_LT(stress_of(round, {"sxx", "syy", "szz"}).mean_square, 0.0005);
+  const Simulation solid = at_rest(std::string(rest) + R"yaml(geometry: solid
+grid: {cell: 0.1, min: [-0.3, -0.3, -0.3], max: [0.7, 0.7, 1.3]}
+bodies: [{name: bar, material: m, shape: {box: {min: [0, 0, 0], max: [0.4, 0.4, 1]}}}]
+)yaml",
+                                   1.0);
+  EXPECT_LT(stress_of(solid, {"szz"}).mean_square, 0.0012);  // of 0.028 in a cell of this size
+}
+
+// Who moves through cells while it grows feels each place of the gradient in turn; what was given keeps its strain.
+TEST(ThermalStress, OfAFreeBarThatFliesIsNoLarger) {
+  const Simulation run = at_rest(R"yaml(geometry: plane_stress
+grid: {cell: 0.05, min: [-0.3, -0.3], max: [2.5, 0.7]}
+time: {end: 1, sync: 0.5}
+bodies: [{name: bar, material: m, initial: {velocity: [1, 0]}, shape: {box: {min: [0, 0], max: [1, 0.4]}}}]
+transport: {temperature: {reference: 300, initial: "300+100*x", compression_heat: off}}
+)yaml",
+                                 1.0);
+  EXPECT_LT(stress_of(run, {"sxx"}).mean_square, 0.005);
 }
 
 // A bar between smooth walls in plane strain, 100 K x^2 warmer: the stress along x is one number, by the length that
@@ -149,7 +224,7 @@ transport: {{temperature: {{reference: 300, initial: "300+100*x*x", compression_
       across[shape].push_back(errors_of(run, "syy", cell, unit, exact, 0.15, 0.85));
     }
   }
-  EXPECT_NEAR(across["ugimp"][1].particle, 0.0089, 0.001);
+  EXPECT_NEAR(across["ugimp"][1].particle, 0.0041, 0.0005);
   EXPECT_NEAR(order(across["ugimp"][0].particle, across["ugimp"][1].particle), 1.0, 0.1);
   for (const char* shape : {"bspline2", "bspline3"}) {
     EXPECT_LT(across[shape][1].particle, 0.0005) << shape;

@@ -51,7 +51,7 @@ struct CheckpointAbout {
 };
 
 inline constexpr const char* kCheckpointFormat = "mpm_ros checkpoint";
-inline constexpr std::uint32_t kCheckpointVersion = 12;
+inline constexpr std::uint32_t kCheckpointVersion = 13;
 
 /// Serialises the state of a run that is outside the Simulation.
 using SerialiseMore = std::function<void(StateArchive&)>;

@@ -89,6 +89,8 @@ struct SetView {
   /// when the stress was last computed (free_strain.hpp). Null where no material expands.
   const double* free_strain;
   double* strained_free;
+  /// Strain along each axis that the next increment gets beside grad v dt (transport/enhanced_strain.hpp); then 0.
+  double* enhanced[3];
   const void* law;  ///< the law; null where no pass asks for it
   const LawKernels<T>* law_kernels;
   const ShapeKernels<T>* shape;  ///< null for points of domains
@@ -221,6 +223,11 @@ struct KernelTable {
   /// to[k] = sum of G_k `field`, of one component; about an axis to[2], unless null, is the sum of T `field`.
   void (*gradient)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets,
                    const double* field);
+  /// to[k] = sum of G_k component k of `field`, which has as many as there are axes.
+  void (*slopes)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets,
+                 const double* field);
+  /// The same of (x_i^2 / 2) along each axis, less the particle's place [m].
+  void (*slope_lead)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets);
   /// Component c of `field` += S from[c], times m if `by_mass`.
   void (*spread)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets, int components,
                  bool by_mass, double* field);

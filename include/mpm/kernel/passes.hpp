@@ -42,6 +42,8 @@ class Passes {
             grown,
             &Transfers::gather,
             &Transfers::gradient,
+            &Transfers::slopes,
+            &Transfers::slope_lead,
             &Transfers::spread,
             &Transfers::spread_gradient,
             &Transfers::diffuse,
@@ -83,6 +85,7 @@ class Passes {
       in.each_chunk([&](const ParticleChunk& chunk) {
         in.fill(Beside::gradient);
         in.gradient(velocity, gradients);
+        if (set.free_strain != nullptr) enhance(set, chunk, settings.dt, gradients);
         if (settings.dilatation != nullptr) {
           alignas(64) T mean[1][kBuffer];
           in.gather(dilatation, mean);
@@ -99,8 +102,21 @@ class Passes {
     return failure;
   }
 
+  static void enhance(const Set& set, const ParticleChunk& chunk, double dt, Gradients& gradients) {
+    const W per_time(1.0 / dt);
+    for (int k = 0; k < kDim; ++k) {
+      T* along = gradients.l[k * kDim + k];
+      for (int q = 0; q < chunk.count; q += W::kLanes) {
+        const W strain(W::B::place(set.enhanced[k] + chunk.first + q, chunk.count - q, 0.0, 1.0, 0.0));
+        (W::load(along + q) + strain * per_time).store(along + q);
+      }
+    }
+  }
   static void note_free_strain(const Set& set, const ParticleChunk& chunk) {
-    for (int p = chunk.first; p < chunk.first + chunk.count; ++p) set.strained_free[p] = set.free_strain[p];
+    for (int p = chunk.first; p < chunk.first + chunk.count; ++p) {
+      set.strained_free[p] = set.free_strain[p];
+      for (int k = 0; k < kDim; ++k) set.enhanced[k][p] = 0.0;
+    }
   }
 
   static void force(const GridView& grid, const BlockView& given, const Set* sets, int count, const double* pressure) {

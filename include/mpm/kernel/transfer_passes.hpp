@@ -8,6 +8,8 @@
 
 namespace mpm {
 
+using mpm_kernel::kTileMargin;
+
 template <class Interpolator>
 class TransferPasses {
   using T = typename Interpolator::Number;
@@ -45,6 +47,22 @@ class TransferPasses {
         for (int k = 0; k < kDim; ++k) take(gradients.l[k], chunk, of.to[k]);
         if (kRings && of.to[2] != nullptr) take(gradients.l[mpm_kernel::kHoopGradient], chunk, of.to[2]);
       });
+    });
+  }
+
+  static void slopes(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays, int count,
+                     const double* field) {
+    Source<kDim> source;
+    source.template load<kDim>(field, Interpolator::reach(given), 0);
+    take_slopes(grid, given, sets, arrays, count, source, [](const Interpolator&, int, int, W slope) { return slope; });
+  }
+
+  static void slope_lead(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays,
+                         int count) {
+    Source<kDim> source;
+    load_parabolas(grid, given, source);
+    take_slopes(grid, given, sets, arrays, count, source, [&](const Interpolator& in, int k, int q, W slope) {
+      return slope - (in.cells(k, q) - W(kMiddle)) * W(1.0 / grid.inverse_cell[k]);
     });
   }
 
@@ -132,6 +150,48 @@ class TransferPasses {
   }
 
  private:
+  static constexpr double kMiddle = 0.5 * (kTileEdge - 1);
+
+  /// to(interpolator, axis k, place in the chunk, d source_k / d x_k) for what is kept.
+  template <class To>
+  static void take_slopes(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays,
+                          int count, const Source<kDim>& source, To&& to) {
+    mpm_kernel::ChunkGradients<T> gradients;
+    each_set<Interpolator>(grid, Interpolator::reach(given), sets, count,
+                           [&](Interpolator& in, const Set&, int number) {
+                             const Arrays& of = arrays[number];
+                             if (of.to[0] == nullptr) return;
+                             in.each_chunk([&](const ParticleChunk& chunk) {
+                               in.fill(Beside::gradient);
+                               in.gradient(source, gradients);
+                               for (int k = 0; k < kDim; ++k) {
+                                 T* slope = gradients.l[k * kDim + k];
+                                 for (int q = 0; q < chunk.count; q += W::kLanes)
+                                   to(in, k, q, W::load(slope + q)).store(slope + q);
+                                 take(slope, chunk, of.to[k]);
+                               }
+                             });
+                           });
+  }
+  // Parabolas about the tile's middle, by way of blocks of their own.
+  static void load_parabolas(const GridView& grid, const BlockView& given, Source<kDim>& source) {
+    constexpr int kBlocks = kDim == 3 ? 27 : kDim == 2 ? 9 : 3, kNodes = TileShape<kDim>::kBlockNodes;
+    double parabolas[kBlocks * kDim * kNodes];
+    int blocks[kBlocks];
+    for (int b = 0; b < kBlocks; ++b) {
+      blocks[b] = b;
+      for (int n = 0; n < kNodes; ++n) {
+        for (int k = kDim - 1, block = b, node = n; k >= 0; --k, block /= 3, node /= 4) {
+          const double arm = (4 * (block % 3) + node % 4 - kTileMargin - kMiddle) / grid.inverse_cell[k];
+          parabolas[(b * kDim + k) * kNodes + n] = 0.5 * arm * arm;
+        }
+      }
+    }
+    BlockView block = Interpolator::reach(given);
+    block.neighbours = blocks;
+    source.template load<kDim>(parabolas, block, 0);
+  }
+
   template <int Components>
   static void gather_components(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays,
                                 int count, const double* field) {

@@ -4,6 +4,7 @@
 //
 //   gather                number of a particle  =  sum over i of S_ip number_i
 //   gradient              vector of a particle  =  sum over i of G_ip number_i
+//   slopes                vector of a particle  =  sum over i of G_ip,k vector_i,k, for each axis k
 //   spread                number of a node      =  sum over p of S_ip number_p, or of m_p S_ip number_p
 //   spread_gradient       number of a node      =  sum over p of G_ip . vector_p
 //   spread_gradient_sum   vector of a node      =  sum over p of G_ip number_p
@@ -47,6 +48,14 @@ class ScalarTransfer {
 
   /// Gradient of `from`, which has one component: `to` gets d/dx_k, and in the hoop direction the sum of T_ip number_i.
   virtual void gradient(int field, const NodalField& from, const Taken& to, const Marks* only = nullptr) = 0;
+
+  /// `to`[k] = d/dx_k of component k of `from`, which has as many as the grid has axes.
+  virtual void slopes(int field, const NodalField& from, const Taken& to) = 0;
+
+  /// How far before a particle the place lies whose slope the gradient takes, along each axis [m]: `to`[k] = sum of
+  /// G_ip (x_i^2 / 2) along k, less x_p. Half a cell's width at most, and 0 where G is exact for parabolas. For the
+  /// particles of all fields.
+  virtual void slope_lead(const Taken& to) = 0;
 
   /// Sets `to`, of one component or as many as the grid has axes, on all blocks of the velocity field; with `only` on
   /// the marked ones, and its values elsewhere have no meaning.

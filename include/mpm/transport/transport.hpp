@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "mpm/step/stage.hpp"
+#include "mpm/transport/enhanced_strain.hpp"
 #include "mpm/transport/pore_water.hpp"
 #include "mpm/transport/surface_heat.hpp"
 #include "mpm/transport/transported_field.hpp"
@@ -39,8 +40,8 @@ class Transport final : public Stage, public RestPartner {
   void add(std::unique_ptr<PoreWater> water) { water_ = std::move(water); }
   /// Takes over nothing: the temperature owns it.
   void set_surface_heat(SurfaceHeat* heat) { surface_ = heat; }
-  /// Makes the sets whose materials expand remember their free strain.
-  void prepare_expansion();
+  /// Makes the sets whose materials expand remember their free strain. `transfer`: of the run's sets and fields.
+  void prepare_expansion(std::unique_ptr<ScalarTransfer> transfer);
 
   bool stirs(const RestingBlock& block, const RestTimes& times) override;
   bool at_once() const override { return false; }
@@ -96,9 +97,10 @@ class Transport final : public Stage, public RestPartner {
   /// Work of expansion against the stress, the mean of that before and after it [J]: what the stress has taken, and the
   /// first half of what it has not.
   double expansion_work_ = 0.0, expansion_begun_ = 0.0;
-  bool begun_ = false;  ///< the stress has not taken it everywhere
-  bool expands_ = false;
-  double expands_for_ = 0.0;  ///< time in which the free strain reaches that of the last update [s]
+  bool begun_ = false;                        ///< the stress has not taken it everywhere
+  std::unique_ptr<EnhancedStrain> enhanced_;  ///< null where nothing expands
+  bool changed_ = true;                       ///< some quantity was updated since its last look
+  double expands_for_ = 0.0;                  ///< time in which the free strain reaches that of the last update [s]
   ImpulseAccount hoop_;
 };
 

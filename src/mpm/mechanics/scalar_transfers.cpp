@@ -41,6 +41,24 @@ class ScalarTransferOf final : public ScalarTransfer {
     });
   }
 
+  void slopes(int field, const NodalField& from, const Taken& to) override {
+    each_taking(field, from, to, nullptr, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
+      kernels_.slopes(view_, block, views_.data(), arrays_.data(), count(), source.block(0));
+    });
+  }
+
+  void slope_lead(const Taken& to) override {
+    const auto at = [&](Grid& grid) {
+      look_at(grid);
+      for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
+      each_owner_at_once(kToParticles, grid, threads_, [&](const mpm_kernel::BlockView& block) {
+        kernels_.slope_lead(view_, block, views_.data(), arrays_.data(), count());
+      });
+    };
+    for (const auto& field : fields_) at(*field);
+    if (choice_ != nullptr && choice_->patches() > 0) at(choice_->grid());
+  }
+
   void spread(int field, const Given& of, Weight weight, NodalField& to, const Marks* only) override {
     each_giving(field, of, to, only, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
       kernels_.spread(view_, block, views_.data(), arrays_.data(), count(), sink.components(), weight == Weight::mass,

@@ -35,18 +35,24 @@ void Transport::add(std::unique_ptr<TransportedField> field) {
   waited_.push_back(0.0);
 }
 
-void Transport::prepare_expansion() {
+void Transport::prepare_expansion(std::unique_ptr<ScalarTransfer> transfer) {
+  std::vector<const TransportedField*> expanding;
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-    const bool grows = std::any_of(fields_.begin(), fields_.end(), [&](const auto& field) {
-      return field->material(static_cast<int>(s)).expansion != 0.0;
-    });
+    bool grows = false;
+    for (const auto& field : fields_) {
+      if (field->material(static_cast<int>(s)).expansion == 0.0) continue;
+      grows = true;
+      if (std::find(expanding.begin(), expanding.end(), field.get()) == expanding.end())
+        expanding.push_back(field.get());
+    }
     if (!grows) continue;
-    expands_ = true;
     parts_.sets[s].free_strain = static_cast<int>(parts_.sets[s].bring("free_strain", "1"));
     parts_.sets[s].bring("free_strain_before", "1");
     parts_.sets[s].bring("free_strain_grown", "1");
   }
-  if (expands_) expands_for_ = seconds_of(sync_);  // time for a start that is not free of strain
+  if (expanding.empty()) return;
+  expands_for_ = seconds_of(sync_);  // time for a start that is not free of strain
+  enhanced_ = std::make_unique<EnhancedStrain>(parts_, std::move(expanding), std::move(transfer));
 }
 
 template <class Term>
@@ -81,6 +87,7 @@ void Transport::expand(double part) {
       });
     });
   }
+  expansion_begun_ += enhanced_->give(part);
   begun_ = true;
 }
 
@@ -94,14 +101,14 @@ void Transport::finish_expansion() {
     double* grows = set.brought[set.free_strain + 2].values.data();
     with_geometry(parts_.geometry, [&](auto kind) {
       expansion_work_ += sum_over(set, [&](int p) {
-        const double by = grows[p];
-        if (by == 0.0) return 0.0;
-        if (taken[p] != strain[p]) {
+        if (taken[p] != strain[p] || enhanced_->waits(set, p)) {
           left.store(true, std::memory_order_relaxed);
           return 0.0;
         }
+        const auto tau = full(kind.load_symmetric(set.tau, p));
+        const double by = grows[p];
         grows[p] = 0.0;
-        return -0.5 * set.mass_of(p) * trace(kind.load_symmetric(set.tau, p)) * by;
+        return 0.5 * set.mass_of(p) * (enhanced_->book(set, p, tau) - trace(tau) * by);
       });
     });
   }
@@ -141,8 +148,11 @@ void Transport::grid_advanced(StepContext& context) {
     }
     expands_for_ = std::max(expands_for_, waited_[i]);
     waited_[i] = 0.0;
+    changed_ = true;
   }
-  if (!expands_ || !(expands_for_ > 0.0)) return;
+  if (!enhanced_ || !(expands_for_ > 0.0)) return;
+  if (changed_) enhanced_->look();
+  changed_ = false;
   const bool arrives = expands_for_ < 1.5 * context.dt;
   expand(arrives ? 1.0 : context.dt / expands_for_);
   expands_for_ = arrives ? 0.0 : expands_for_ - context.dt;
@@ -162,7 +172,7 @@ void Transport::energies(EnergyReport& report) const {
     if (field->gives_to_laws()) report.add("heat", NamedEnergy::Kind::work, field->given_to_laws());
   }
   if (water_) report.add("pore_pressure", NamedEnergy::Kind::work, water_->work());
-  if (expands_) report.add("expansion", NamedEnergy::Kind::work, expansion_work_);
+  if (enhanced_) report.add("expansion", NamedEnergy::Kind::work, expansion_work_);
 }
 
 double Transport::budget_error(const TransportedField& field) const {
@@ -237,7 +247,7 @@ void Transport::serialise(StateArchive& archive) {
   archive.value("sync_end", sync_end_);
   archive.sum("expansion_work", expansion_work_);
   archive.sum("expansion_begun", expansion_begun_);
-  if (archive.reading()) begun_ = expands_;  // it looks, and finds what there is
+  if (archive.reading()) begun_ = enhanced_ != nullptr;  // it looks, and finds what there is
   archive.value("expands_for", expands_for_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const StateArchive::Group group(archive, traits_of(fields_[i]->quantity()).name);

@@ -11,7 +11,7 @@
 // booked with that of the free strain, by the mean of the stress before and after.
 //
 // The slope is that of means by mass on the nodes, over the slope of the places of these masses: exact where free
-// strain is linear, at the edges of bodies too.
+// strain is linear, at the edges of bodies too. The latter, which changes slowly, is that of the last sync point.
 //
 // Weak: where a body is held across the axis, stress across it varies in the cell, and what Poisson's ratio makes of
 // that along the axis stays, as it does in a loaded body without any heat. Along a periodic axis the places of masses
@@ -23,7 +23,6 @@
 #include <memory>
 #include <vector>
 
-#include "mpm/math/tensor.hpp"
 #include "mpm/transport/transported_field.hpp"
 
 namespace mpm {
@@ -39,20 +38,24 @@ class EnhancedStrain {
   /// Takes the slopes of what the quantities have changed by since the last call. Momentum has been gathered, and
   /// particles have not moved since.
   void look();
-  /// Gives all particles a part of what is left, at the same time. Returns the work that it does against the stress as
-  /// it is [J].
+  /// Finds anew what follows motion, when it is asked for the next time: so that a run that goes on from here does what
+  /// it would have done.
+  void at_sync() {
+    masses_moved_ = true;
+    parts_given_ = 0;
+  }
+
+  /// Gives all particles a part of what is left, at the same time. Returns half of the work that it does against the
+  /// stress as it is [J].
   double give(double part);
-  /// Forgets what was given to a particle since the last call, and returns the Kirchhoff stress over initial density
-  /// times that strain [J/kg].
-  double book(ParticleSet& set, int p, const Symmetric3<double>& tau) const;
-  /// True if its strain has not been taken yet.
-  bool waits(const ParticleSet& set, int p) const;
+  /// Returns the other half, against the stress that has taken what was given since the last call [J].
+  double book();
 
  private:
   /// What a set remembers along each axis, from ParticleSet::kEnhanced on: strain that the next increment takes, strain
-  /// that has been given and not booked, and the slope of the free strain that is left [1/m]; and after these each
-  /// quantity at the last look.
-  enum Kind { taken_next, given, slope_left, kKinds };
+  /// that has been given and not booked, the slope of the free strain that is left [1/m], the slope of the places of
+  /// masses, and the distance to the place of the slope [m]; and after these each quantity at the last look.
+  enum Kind { taken_next, given, slope_left, of_places, lead, kKinds };
 
   static std::size_t place(const ParticleSet& set, int kind_and_axis) {
     return set.free_strain + ParticleSet::kEnhanced + kind_and_axis;
@@ -66,9 +69,13 @@ class EnhancedStrain {
   template <class Visit>
   void each_group(Visit&& visit);
   void find_leads();
-  /// Masses of nodes, and the slopes of their places.
-  void look_at_masses();
+  /// Masses of nodes without what sleeps.
+  void find_masses();
+  void find_slopes_of_places();
   void add_slopes(std::size_t quantity);
+  /// Half of the sum over particles of stress times strain(set, axis, particle) [J].
+  template <class Strain>
+  double half_work(Strain&& strain);
   /// Nodal numbers by mass, of the scratch.
   void spread(std::vector<NodalField>& to);
   void over_mass(std::vector<NodalField>& numbers);
@@ -78,9 +85,10 @@ class EnhancedStrain {
   std::vector<const TransportedField*> expanding_;
   std::unique_ptr<ScalarTransfer> transfer_;
   std::vector<NodalField> masses_, numbers_, places_;  ///< of each velocity field
-  /// Scratch of each set, along each axis: numbers to spread and gradients; slopes of places; distances from a particle
-  /// to the place of the slope [m].
-  std::vector<std::array<PaddedArray<double>, 3>> gradients_, of_places_, leads_;
+  bool masses_moved_ = true;
+  int parts_given_ = 0;  ///< since the sync point
+  /// Scratch of each set, along each axis: numbers to spread, and gradients.
+  std::vector<std::array<PaddedArray<double>, 3>> gradients_;
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken taken_;
   std::vector<double> sums_;

@@ -63,6 +63,7 @@ class Transport final : public Stage, public RestPartner {
   void at_sync(std::int64_t time) override {
     sync_end_ = time + sync_;
     finish_expansion();
+    if (enhanced_) enhanced_->at_sync();
   }
   void before_sort() override { finish_expansion(); }
   void accounts(std::vector<ImpulseAccount>& list) const override;

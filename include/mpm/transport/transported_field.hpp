@@ -71,6 +71,7 @@ struct TransportParts {
   std::vector<double> densities;         ///< initial density of each set [kg/m^3]
   Vec3 gravity;                          ///< [m/s^2]
   bool cracked = false;                  ///< particles near cracks choose a field at every node
+  bool sleeps = false;                   ///< the grid's masses count material asleep
   Communicator* ranks = nullptr;         ///< communicator of a run over several ranks; else null
   std::function<bool()> interrupt = {};  ///< true if the run is asked to stop; may be empty
 };

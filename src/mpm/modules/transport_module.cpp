@@ -150,6 +150,7 @@ void add_transport(RunParts& parts) {
                         {},
                         definition.gravity,
                         parts.choice != nullptr,
+                        definition.sleep.has_value(),
                         parts.ranks,
                         parts.interrupt};
   std::vector<double> speeds;

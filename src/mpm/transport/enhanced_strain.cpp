@@ -16,6 +16,10 @@ namespace {
 /// lies at one place there is no slope of anything.
 constexpr double kLeastSlope = 0.25;
 
+/// Number of parts for which the distances to slopes are found once: in so many steps a particle moves by a small part
+/// of a cell.
+constexpr int kGoodFor = 4;
+
 /// The part of a stress along a world axis.
 template <class Symmetric>
 double along(const Symmetric& tau, int axis) {
@@ -31,8 +35,6 @@ EnhancedStrain::EnhancedStrain(const TransportParts& parts, std::vector<const Tr
       expanding_(std::move(expanding)),
       transfer_(std::move(transfer)),
       gradients_(parts.sets.size()),
-      of_places_(parts.sets.size()),
-      leads_(parts.sets.size()),
       given_(parts.sets.size()),
       taken_(parts.sets.size()) {
   const GridLayout& layout = parts_.fields.front()->layout;
@@ -43,8 +45,11 @@ EnhancedStrain::EnhancedStrain(const TransportParts& parts, std::vector<const Tr
   }
   for (ParticleSet& set : parts_.sets) {
     if (set.free_strain < 0) continue;
-    constexpr std::pair<const char*, const char*> kNumbers[kKinds] = {
-        {"enhanced_strain_", "1"}, {"enhanced_strain_given_", "1"}, {"free_strain_slope_left_", "1/m"}};
+    constexpr std::pair<const char*, const char*> kNumbers[kKinds] = {{"enhanced_strain_", "1"},
+                                                                      {"enhanced_strain_given_", "1"},
+                                                                      {"free_strain_slope_left_", "1/m"},
+                                                                      {"slope_of_places_", "1"},
+                                                                      {"slope_lead_", "m"}};
     for (const auto& [name, unit] : kNumbers) {
       for (int k = 0; k < dim_; ++k) set.bring(std::string(name) + "xyz"[layout.axis(k)], unit);
     }
@@ -67,32 +72,37 @@ void EnhancedStrain::each_group(Visit&& visit) {
 }
 
 void EnhancedStrain::look() {
-  look_at_masses();
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    for (int k = 0; k < dim_; ++k) gradients_[s][k].resize(parts_.sets[s].id.size());
+  }
+  find_masses();
+  if (masses_moved_) find_slopes_of_places();
+  masses_moved_ = false;
   for (std::size_t i = 0; i < expanding_.size(); ++i) add_slopes(i);
 }
 
-void EnhancedStrain::look_at_masses() {
-  const GridLayout& layout = parts_.fields.front()->layout;
-  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-    for (int k = 0; k < dim_; ++k) {
-      gradients_[s][k].resize(parts_.sets[s].id.size());
-      of_places_[s][k].resize(parts_.sets[s].id.size());
-    }
-    given_[s] = {gradients_[s][0].data()};
-  }
+void EnhancedStrain::find_masses() {
+  if (!parts_.sleeps) return;  // the grid has them
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) given_[s] = {gradients_[s][0].data()};
   each_group([&](ParticleSet&, std::size_t s, int first, int last) {
     std::fill(gradients_[s][0].data() + first, gradients_[s][0].data() + last, 1.0);
   });
   spread(masses_);
+}
+
+void EnhancedStrain::find_slopes_of_places() {
+  const GridLayout& layout = parts_.fields.front()->layout;
   each_group([&](ParticleSet& set, std::size_t s, int first, int last) {
     for (int k = 0; k < dim_; ++k) {
       for (int p = first; p < last; ++p) gradients_[s][k][p] = set.x[k][p] - layout.origin(k);
     }
   });
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    ParticleSet& set = parts_.sets[s];
+    taken_[s] = {};
     for (int k = 0; k < dim_; ++k) {
       given_[s][k] = gradients_[s][k].data();
-      taken_[s][k] = of_places_[s][k].data();
+      if (set.free_strain >= 0) taken_[s][k] = numbers(set, of_places, k);
     }
   }
   spread(places_);
@@ -127,10 +137,10 @@ void EnhancedStrain::add_slopes(std::size_t quantity) {
   each_group([&](ParticleSet& set, std::size_t s, int first, int last) {
     const double by_one = field.material(static_cast<int>(s)).expansion;
     for (int k = 0; k < dim_ && by_one != 0.0; ++k) {
-      const double *gradient = gradients_[s][k].data(), *of_places = of_places_[s][k].data();
+      const double *gradient = gradients_[s][k].data(), *places = numbers(set, of_places, k);
       double* slope = numbers(set, slope_left, k);
       for (int p = first; p < last; ++p) {
-        const double over = layout.periodic(k) ? 1.0 : of_places[p];
+        const double over = layout.periodic(k) ? 1.0 : places[p];
         if (over > kLeastSlope) slope[p] += by_one * gradient[p] / over;
       }
     }
@@ -147,7 +157,7 @@ void EnhancedStrain::over_mass(std::vector<NodalField>& numbers) {
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     const Grid& grid = *parts_.fields[f];
     for_nodes("transport: enhanced strain", grid, parts_.threads, [&](int b, int n) {
-      const double mass = masses_[f].at(b, 0, n);
+      const double mass = parts_.sleeps ? masses_[f].at(b, 0, n) : grid.mass.at(b, 0, n);
       for (int c = 0; c < numbers[f].components(); ++c) {
         double& number = numbers[f].at(b, c, n);
         number = mass > 0.0 && grid.carries(b, n) ? number / mass : 0.0;
@@ -158,59 +168,59 @@ void EnhancedStrain::over_mass(std::vector<NodalField>& numbers) {
 
 void EnhancedStrain::find_leads() {
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    ParticleSet& set = parts_.sets[s];
     taken_[s] = {};
-    for (int k = 0; k < dim_ && parts_.sets[s].free_strain >= 0; ++k) {
-      leads_[s][k].resize(parts_.sets[s].id.size());
-      taken_[s][k] = leads_[s][k].data();
-    }
+    for (int k = 0; k < dim_ && set.free_strain >= 0; ++k) taken_[s][k] = numbers(set, lead, k);
   }
   transfer_->slope_lead(taken_);
 }
 
-double EnhancedStrain::give(double part) {
-  find_leads();
+template <class Strain>
+double EnhancedStrain::half_work(Strain&& strain) {
+  const GridLayout& layout = parts_.fields.front()->layout;
   double work = 0.0;
   with_geometry(parts_.geometry, [&](auto kind) {
-    const GridLayout& layout = parts_.fields.front()->layout;
     for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
       ParticleSet& set = parts_.sets[s];
       if (set.free_strain < 0) continue;
-      work = sum_groups(
-          "transport: enhanced strain", set, parts_.threads, sums_, work, [&](int first, int last, double& sum) {
-            for (int k = 0; k < dim_; ++k) {
-              double *slope = numbers(set, slope_left, k), *next = numbers(set, taken_next, k),
-                     *unbooked = numbers(set, given, k);
-              const double* lead = leads_[s][k].data();
-              for (int p = first; p < last; ++p) {
-                const double now = part * slope[p], strain = -now * lead[p];
-                slope[p] -= now;
-                next[p] += strain;
-                unbooked[p] += strain;
-                sum += 0.5 * set.mass_of(p) * along(kind.load_symmetric(set.tau, p), layout.axis(k)) * strain;
-              }
-            }
-          });
+      const auto add = [&](int first, int last, double& sum) {
+        for (int k = 0; k < dim_; ++k) {
+          const int axis = layout.axis(k);
+          const auto of = strain(static_cast<int>(s), k);
+          for (int p = first; p < last; ++p) {
+            sum += 0.5 * set.mass_of(p) * along(kind.load_symmetric(set.tau, p), axis) * of(p);
+          }
+        }
+      };
+      work = sum_groups("transport: enhanced strain", set, parts_.threads, sums_, work, add);
     }
   });
   return work;
 }
 
-bool EnhancedStrain::waits(const ParticleSet& set, int p) const {
-  for (int k = 0; k < dim_; ++k) {
-    if (set.brought[place(set, taken_next * dim_ + k)].values[p] != 0.0) return true;
-  }
-  return false;
+double EnhancedStrain::give(double part) {
+  if (parts_given_++ % kGoodFor == 0) find_leads();
+  return half_work([&](int s, int k) {
+    ParticleSet& set = parts_.sets[s];
+    return [part, slope = numbers(set, slope_left, k), next = numbers(set, taken_next, k),
+            unbooked = numbers(set, given, k), ahead = numbers(set, lead, k)](int p) {
+      const double now = part * slope[p], strain = -now * ahead[p];
+      slope[p] -= now;
+      next[p] += strain;
+      unbooked[p] += strain;
+      return strain;
+    };
+  });
 }
 
-double EnhancedStrain::book(ParticleSet& set, int p, const Symmetric3<double>& tau) const {
-  const GridLayout& layout = parts_.fields.front()->layout;
-  double work = 0.0;
-  for (int k = 0; k < dim_; ++k) {
-    double& unbooked = numbers(set, given, k)[p];
-    work += along(tau, layout.axis(k)) * unbooked;
-    unbooked = 0.0;
-  }
-  return work;
+double EnhancedStrain::book() {
+  return half_work([&](int s, int k) {
+    return [unbooked = numbers(parts_.sets[s], given, k)](int p) {
+      const double strain = unbooked[p];
+      unbooked[p] = 0.0;
+      return strain;
+    };
+  });
 }
 
 }  // namespace mpm

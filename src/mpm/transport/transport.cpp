@@ -101,20 +101,20 @@ void Transport::finish_expansion() {
     double* grows = set.brought[set.free_strain + 2].values.data();
     with_geometry(parts_.geometry, [&](auto kind) {
       expansion_work_ += sum_over(set, [&](int p) {
-        if (taken[p] != strain[p] || enhanced_->waits(set, p)) {
+        const double by = grows[p];
+        if (by == 0.0) return 0.0;
+        if (taken[p] != strain[p]) {
           left.store(true, std::memory_order_relaxed);
           return 0.0;
         }
-        const auto tau = full(kind.load_symmetric(set.tau, p));
-        const double by = grows[p];
         grows[p] = 0.0;
-        return 0.5 * set.mass_of(p) * (enhanced_->book(set, p, tau) - trace(tau) * by);
+        return -0.5 * set.mass_of(p) * trace(kind.load_symmetric(set.tau, p)) * by;
       });
     });
   }
   begun_ = left;
   if (begun_) return;
-  expansion_work_ += expansion_begun_;
+  expansion_work_ += expansion_begun_ + enhanced_->book();
   expansion_begun_ = 0.0;
 }
 

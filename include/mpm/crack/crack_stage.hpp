@@ -65,6 +65,8 @@ class CrackStage final : public Stage, public RestPartner {
   bool stirs(const RestingBlock& block, const RestTimes&) override {
     return parts_->chosen->near(block.block, parts_->reach);
   }
+  /// A tip may grow by several cells between two looks.
+  bool moves_with_sorts() const override { return true; }
 
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit&) const override { return "stiffest law of tractions on a crack"; }

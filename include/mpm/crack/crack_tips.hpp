@@ -53,7 +53,6 @@ struct CrackTip : TipNumbers {
   ContourStatus status = ContourStatus::meets_no_crack;  ///< `complete`: J is known
   int material = -1;                                     ///< index in TipSettings::materials
   Vec2 start_direction = Vec2::UnitX();                  ///< at the run's start
-  bool by_alternate = false;                             ///< the last growth
   std::string why;                                       ///< it grew or did not, or stopped for good
   TipGrowth growth;
 };

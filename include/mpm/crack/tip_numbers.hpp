@@ -23,6 +23,7 @@ struct TipNumbers {
   double last_growth = 0.0;          ///< time of it [s]
   double next_look = 0.0;            ///< at growth, not before [s]
   int growths = 0;
+  bool by_alternate = false;  ///< the last growth was by the alternate rule
 };
 
 struct TipNumber {

@@ -29,6 +29,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mpm/grid/node_choice.hpp"
@@ -108,6 +109,8 @@ class StressAverage final : public Stage {
   double share(const Place& place, const LawType& law, double* before, const Grid& grid, Cells& cells);
   template <class Geometry>
   void average(const Grid& grid, int field, Cells& cells);
+  /// True if cells of this field may have more parts than one: particles choose fields from it.
+  bool divides(int field) const;
   void exchange(const Grid& grid, int field, int part, Cells& cells);
   /// A part of the cell with this number along each axis, from -1, counted from the first of an owner's block.
   Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, int part, const int* of_block,
@@ -120,12 +123,13 @@ class StressAverage final : public Stage {
   Halo* halo_;
   const NodeChoice* choice_ = nullptr;  ///< null without cracks, as `parts_` is
   std::unique_ptr<CellParts> parts_;
-  int most_parts_ = 1;            ///< number that a cell may have
-  std::vector<Cells> cells_;      ///< cells of each field
-  std::uint32_t step_ = 0;        ///< counts, so that what an earlier step left in a cell is known as that
-  std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]
-  double taken_ = 0.0;            ///< [J]
-  std::uint64_t begun_ = 0;       ///< not 0 if a step has been taken
+  int most_parts_ = 1;              ///< number that a cell may have
+  std::vector<Cells> cells_;        ///< cells of each field
+  std::uint32_t step_ = 0;          ///< counts, so that what an earlier step left in a cell is known as that
+  std::optional<NodalField> sums_;  ///< sums that ranks exchange; none on one process
+  std::vector<double> of_owner_;    ///< energy that the particles of a block lose in this step [J]
+  double taken_ = 0.0;              ///< [J]
+  std::uint64_t begun_ = 0;         ///< not 0 if a step has been taken
 };
 
 }  // namespace mpm

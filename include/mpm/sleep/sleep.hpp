@@ -126,7 +126,8 @@ class Sleep final : public Stage {
     }
   };
 
-  void follow_sort(const StepContext& context);
+  /// True if particles have been sorted since the last step.
+  bool follow_sort(const StepContext& context);
   /// After a checkpoint has been read: the numbers of their owners.
   void find_owners_of_sleepers();
   void look(const StepContext& context);
@@ -144,8 +145,8 @@ class Sleep final : public Stage {
   bool is_kept_awake(const RestingBlock& block, const RestTimes& times) const;
   RestingBlock awake_block(int field, int owner) const;
   static RestingBlock asleep_block(const SleepingBlock& block, const GridLayout& layout);
-  /// Adds blocks asleep that partners wake.
-  void ask_partners(const StepContext& context);
+  /// Adds blocks asleep that partners wake. `after_sort`: only those that move with sorts.
+  void ask_partners(const StepContext& context, bool after_sort);
   /// Wakes what is asleep, or takes it away, and tells partners.
   void tell_of_waking(const BlockName& name) const;
   /// True if material of another velocity field is near to a block of one.

@@ -62,6 +62,9 @@ class RestPartner {
   virtual bool stirs(const RestingBlock& block, const RestTimes& times) = 0;
   /// True if a block asleep that stirs has to wake after this very step.
   virtual bool at_once() const { return true; }
+  /// True if the blocks that it stirs change when it has asked for a sort, as those near a crack that grows do: it is
+  /// asked of blocks asleep after every sort then, too, and not at looks alone.
+  virtual bool moves_with_sorts() const { return false; }
   /// Adds to `forces` those that a block which is to fall asleep has from this on the nodes of its tile.
   virtual void add_forces(const RestingBlock& /*block*/, BlockForces& /*forces*/) {}
   /// True if this holds a node along some direction, with a force that is not known.

@@ -93,7 +93,8 @@ class Particles {
   std::array<T*, kRows> gradient_;
 };
 
-/// Owner of the block with this key.
+/// Owner of the block with this key, which has one: blocks whose particles choose a field are owners in all fields that
+/// they choose from (step/sorter.cpp), with or without other particles.
 int owner_of(const BlockTable& blocks, std::uint64_t key) {
   int first = 0, end = blocks.owners();
   while (first < end) {
@@ -250,13 +251,21 @@ double StressAverage::share(const Place& place, const LawType& law, double* befo
   return lost;
 }
 
+bool StressAverage::divides(int field) const {
+  return std::any_of(sets_.begin(), sets_.end(),
+                     [&](const AveragedSet& one) { return one.set->chooses && one.set->field == field; });
+}
+
 // Sums of one part of each cell over all ranks, where several have particles in it.
 void StressAverage::exchange(const Grid& grid, int field, int part, Cells& cells) {
   constexpr int kMass = 0, kVolume = 1, kParticles = 2, kStress = 3;
   const int nodes = grid.layout.nodes_per_block(), blocks = grid.blocks.size();
-  NodalField sums(kStress + static_cast<int>(Cell().stress.size()), nodes);
+  if (!sums_) sums_.emplace(kStress + static_cast<int>(Cell().stress.size()), nodes);
+  NodalField& sums = *sums_;
   sums.resize(blocks);
   for (std::size_t s = 0; s < sets_.size(); ++s) {
+    const ParticleSet& set = *sets_[s].set;
+    if (set.field != field && set.far_field != field) continue;
     const int* of_block = &cells.of_set_block[s * blocks];
     std::fill_n(sums.data(), sums.size(), 0.0);
     const auto each_cell = [&](auto&& visit) {
@@ -305,7 +314,8 @@ void StressAverage::average(const Grid& grid, int field, Cells& cells) {
     each_patch(grid, field, s,
                [&](const Place& at) { gather<Geometry, decltype(scalar)>(at, law, before, grid, cells); });
   });
-  for (int part = 0; part < most_parts_ && halo_ != nullptr; ++part) exchange(grid, field, part, cells);
+  const int parts = divides(field) ? most_parts_ : 1;
+  for (int part = 0; part < parts && halo_ != nullptr; ++part) exchange(grid, field, part, cells);
   grid.shares.at_once("cells: stress to particles", threads_, [&](int owner) {
     each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
       of_owner_[owner] += share<Geometry, decltype(scalar)>(of_block(s, owner), law, before, grid, cells);

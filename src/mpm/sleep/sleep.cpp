@@ -61,7 +61,7 @@ void Sleep::look(const StepContext& context) {
   for (const auto& [name, block] : asleep_.all()) {
     if (tool_near(layout_.block(name.key), context.dt) || other_near(name.field, name.key)) to_wake_.push_back(name);
   }
-  if (!parts_.partners.empty()) ask_partners(context);
+  ask_partners(context, false);
   if (across_) across_->add_met(to_wake_);
   watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
   const RestTimes times{std::max(0.0, context.start - definition_.after), context.start,
@@ -79,10 +79,11 @@ void Sleep::look(const StepContext& context) {
   }
 }
 
-void Sleep::follow_sort(const StepContext& context) {
+bool Sleep::follow_sort(const StepContext& context) {
   const std::uint64_t generation = context.fields.front()->blocks.generation();
-  if (generation_ == generation && !just_read_) return;
-  if (generation_ != generation) watch_.follow(context.fields, context.start);
+  const bool sorted = generation_ != generation;
+  if (!sorted && !just_read_) return false;
+  if (sorted) watch_.follow(context.fields, context.start);
   generation_ = generation;
   if (just_read_) {
     find_owners_of_sleepers();
@@ -103,6 +104,7 @@ void Sleep::follow_sort(const StepContext& context) {
       if (parts_.averaged) grid.means_at_rest.push_back({node.ref, node.mass, node.stress});
     }
   }
+  return sorted;
 }
 
 // Both are in the order of names.
@@ -123,12 +125,15 @@ void Sleep::find_owners_of_sleepers() {
 }
 
 void Sleep::momentum_gathered(StepContext& context) {
-  follow_sort(context);
+  const bool sorted = follow_sort(context);
   if (!begun_ && definition_.from_start) {
     watch_.trust_all();
     looks_waited_ = pace_.looks_to_wait;
   }
-  if (begun_ && ++steps_ < pace_.between_looks) return;
+  if (begun_ && ++steps_ < pace_.between_looks) {
+    if (sorted) ask_partners(context, true);
+    return;
+  }
   if (across_ ? across_->ranks().any(!sleepers_.empty()) : !sleepers_.empty()) ++looks_waited_;
   steps_ = 0;
   sleepers_.clear();

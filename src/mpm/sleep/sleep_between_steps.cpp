@@ -109,13 +109,15 @@ bool Sleep::is_kept_awake(const RestingBlock& block, const RestTimes& times) con
   return std::any_of(parts_.partners.begin(), parts_.partners.end(), stirs);
 }
 
-void Sleep::ask_partners(const StepContext& context) {
+void Sleep::ask_partners(const StepContext& context, bool after_sort) {
+  const auto is_asked = [after_sort](const RestPartner* partner) { return !after_sort || partner->moves_with_sorts(); };
+  if (std::none_of(parts_.partners.begin(), parts_.partners.end(), is_asked)) return;
   for (const auto& [name, block] : asleep_.all()) {
     const RestTimes times{block->since, context.start, context.start + ahead_of_looks() * context.dt,
                           definition_.balance};
     const RestingBlock asked = asleep_block(*block, layout_);
     for (RestPartner* partner : parts_.partners) {
-      if (!partner->stirs(asked, times)) continue;
+      if (!is_asked(partner) || !partner->stirs(asked, times)) continue;
       to_wake_.push_back(name);
       at_once_ = at_once_ || partner->at_once();
       break;

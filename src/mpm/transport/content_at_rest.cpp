@@ -84,6 +84,7 @@ ContentAtRest::Tile ContentAtRest::take(const RestingBlock& block) {
   if (found == tiles_.end()) return {};
   Tile tile = std::move(found->second);
   tiles_.erase(found);
+  shared_.clear();  // refers to the tile, and follow() finds it anew
   return tile;
 }
 

@@ -64,7 +64,7 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
     double content = 0.0;
     for (const std::uint32_t id : term.particles) {
       const int p = id < place_of_.size() ? place_of_[id] : -1;
-      if (p < 0 || p >= set.awake()) continue;  // on another rank
+      if (p < 0 || p >= set.awake()) continue;  // on another rank, or asleep
       const FaceParts parts = faces_.parts(term.set, p, term.face);
       Vec3 middle = Vec3::Zero();
       for (int k = 0; k < faces_.layout().dim(); ++k) middle[faces_.layout().axis(k)] = parts.middle[k];

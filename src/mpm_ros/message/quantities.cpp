@@ -102,7 +102,9 @@ const std::vector<TipQuantity>& tip_quantities() {
       Q("grown", "m", Over::start, FIELD(grown), FIELD(grown), "grown", ""),
       Q("speed", "m/s", Over::now, FIELD(speed), FIELD(speed), "speed", "of the last growth"),
       Q("angle", "rad", Over::now, FIELD(angle), FIELD(angle), "angle", "by which the last growth turned"),
-      Q("growths", "1", Over::start, FIELD(growths), FIELD(growths), "growths", "")};
+      Q("growths", "1", Over::start, FIELD(growths), FIELD(growths), "growths", ""),
+      Q("by alternate", "1", Over::now, FIELD(by_alternate), FIELD(by_alternate), "by alternate",
+        "1 if the last growth was by the alternate rule, else 0")};
   return list;
 }
 

@@ -45,15 +45,15 @@ void ExitWatchdog::ends(int exit_code) {
 }
 
 void ExitWatchdog::watch() {
-  constexpr std::chrono::milliseconds kLook{50}, kStopPatience = kPatience;
+  constexpr std::chrono::milliseconds kLook{50};
   std::chrono::milliseconds asked{0}, stopped{0}, ended{0};
   for (;; std::this_thread::sleep_for(kLook)) {
     const bool stop = stop_requested();
     asked = stop ? asked + kLook : std::chrono::milliseconds{0};
     stopped = stop && may_end_ ? stopped + kLook : std::chrono::milliseconds{0};
     ended = ends_ ? ended + kLook : std::chrono::milliseconds{0};
-    if (ended > patience_ || (ends_ && stopped > kStopPatience)) std::_Exit(exit_code_);
-    if (stopped > kStopPatience) {
+    if (ended > patience_ || (ends_ && stopped > kPatience)) std::_Exit(exit_code_);
+    if (stopped > kPatience) {
       const std::string why = used_up();
       std::fprintf(stderr, "stopped before there was a run%s%s\n", why.empty() ? "" : ": ", why.c_str());
       leave(why.empty() ? exit_code_.load() : 1);

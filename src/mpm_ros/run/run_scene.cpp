@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -15,42 +14,25 @@
 #include "mpm/ranks/of_all.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/rank_failure.hpp"
-#include "mpm/terrain/ground_map.hpp"
-#include "mpm/terrain/height_file.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/aim/aim.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/record/output_names.hpp"
-#include "mpm_ros/record/run_scene_csv.hpp"
-#include "mpm_ros/record/run_scene_vtk.hpp"
 #include "mpm_ros/record/scene_files.hpp"
 #include "mpm_ros/record/together.hpp"
 #include "mpm_ros/run/rerun.hpp"
 #include "mpm_ros/run/run.hpp"
 #include "mpm_ros/run/run_files.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
+#include "mpm_ros/run/run_scene_files.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"
 #include "mpm_ros/run/run_scene_summary.hpp"
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
-#include "mpm_ros/sweep/study.hpp"
 
 namespace mpm_ros {
 namespace {
-
-/// A sink that gets no more once it is left out.
-template <typename Sink>
-class Leavable : public Sink {
- public:
-  using Sink::Sink;
-  void leave_out() { left_out_ = true; }
-  bool left_out() const { return left_out_; }
-  bool wants(const std::string& topic) const override { return !left_out_ && Sink::wants(topic); }
-
- private:
-  bool left_out_ = false;
-};
 
 /// The run with its sinks, from beginning to end.
 class OfflineRun {
@@ -82,14 +64,14 @@ class OfflineRun {
     together<mpm::SceneError>(options_.ranks.get(), [this] {
       check_outputs(options_, scene_);
       if (!options_.resume.empty()) check_not_there(options_);
-      try_outputs();
+      files_.try_all();
     });
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, nullptr);
     if (rerun_ && run_->simulation().budget() != nullptr) repeat_cuts();
-    open_sinks();
+    files_.open(*run_);
     if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
       throw mpm::SceneError(fmt::format("--end: '{}' is before the checkpoint's time of {:g} s; write a later one",
                                         options_.end, mpm::seconds_of(run_->simulation().time())));
@@ -144,10 +126,10 @@ class OfflineRun {
         no_room(error);
       } catch (const CsvError& error) {
         no_room(error);
-        csv_->leave_out();
+        files_.leave_out_csv();
       } catch (const VtkError& error) {
         no_room(error);
-        vtk_->leave_out();
+        files_.leave_out_vtk();
       }
     };
     recorded([&] {
@@ -193,12 +175,12 @@ class OfflineRun {
       }
     });
     if (!room) recorded([&] { run_->finish(); });
-    if (csv_ && !csv_->left_out()) recorded([&] { csv_->close(); });
-    if (vtk_ && !vtk_->left_out()) recorded([&] { vtk_->close(); });
+    recorded([&] { files_.close_csv(); });
+    recorded([&] { files_.close_vtk(); });
     const RunSummary summary(scene_, simulation, start, run_->outputs().contacts(), run_->cut_short());
     out << summary.text();
-    if (!write(summary, err)) room = false;
-    if (!failed && !write_terrain(out, err)) room = false;
+    if (!files_.write_summary(summary, err)) room = false;
+    if (!failed && !files_.write_terrain(simulation, out, err)) room = false;
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";
     if (!options_.out.empty()) out << "  all in " << options_.out << "\n";
     RunSceneResult result = failed ? RunSceneResult::physics_failed : RunSceneResult::done;
@@ -259,87 +241,12 @@ class OfflineRun {
                                  rerun_->cuts.size(), rerun_->cuts.size() == 1 ? "" : "s"));
   }
 
-  /// Tries the files that are written beside the bag, so that one that cannot be is told of before the run. Nothing is
-  /// replaced yet: a run that does not come to its start leaves what an earlier one wrote.
-  void try_outputs() {
-    if (!options_.out.empty()) choose_folder();
-    try_file("--summary", options_.summary);
-    if (!options_.terrain.empty()) ground_at_end(scene_);
-    if (own_first()) try_file("--terrain", options_.terrain);
-    try_folder("--csv", options_.csv);
-    try_folder("--vtk", options_.vtk);
-  }
-
-  /// Opens sinks if there is something to write. Files for ParaView on all ranks, in the folder that the first one has.
-  void open_sinks() {
-    mpm::Communicator* ranks = options_.ranks.get();
-    options_.vtk = mpm::text_of_all(ranks, options_.vtk);
-    together<mpm::SceneError>(ranks, [&] {
-      if (!options_.csv.empty()) {
-        const bool axisymmetric = mpm::axisymmetric(scene_.definition.geometry);
-        csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, axisymmetric);
-        run_->add(*csv_);
-      }
-      if (options_.vtk.empty()) return;
-      vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_, ranks);
-      run_->add(*vtk_);
-    });
-  }
-
-  /// A folder of its own, and in it all that was not given a place.
-  void choose_folder() {
-    options_.out = make_run_folder(options_.out, scene_.definition.name);
-    const auto place = [this](std::string& path, const char* name) {
-      if (path.empty()) path = options_.out + "/" + name;
-    };
-    place(options_.bag, "run.bag");
-    place(options_.csv, "csv");
-    place(options_.vtk, "vtk");
-    place(options_.summary, "summary.json");
-    std::ofstream text(options_.out + "/scene.yaml");
-    text << scene_.text << "\n";
-    if (!text.flush()) throw mpm::SceneError(fmt::format("--out: {}/scene.yaml cannot be written", options_.out));
-  }
-
   bool save_last(std::ostream& out, std::ostream& err) {
     try {
       checkpoints_.at_end(*run_, out);
       return true;
     } catch (const mpm::CheckpointError& error) {
       err << "run_scene: " << error.what() << "\n";
-      return false;
-    }
-  }
-
-  bool own_first() const { return !options_.ranks || options_.ranks->first(); }
-
-  /// The ground is read on all ranks, and written by the first.
-  bool write_terrain(std::ostream& out, std::ostream& err) {
-    if (options_.terrain.empty()) return true;
-    const mpm::GroundOutput ground = ground_at_end(scene_);
-    const mpm::Simulation& simulation = run_->simulation();
-    const mpm::SimulationDefinition& definition = simulation.definition();
-    mpm::GroundMap map(simulation, ground.of);
-    const mpm::HeightGrid& heights =
-        map.read(simulation, mpm::ground_raster(definition.grid, definition.geometry, ground.resolution));
-    if (!own_first()) return true;
-    try {
-      mpm::write_height_tiff(options_.terrain, heights);
-    } catch (const mpm::SceneError& error) {
-      err << "run_scene: --terrain " << error.what() << "\n";
-      return false;
-    }
-    out << "  ground in " << options_.terrain << "\n";
-    return true;
-  }
-
-  bool write(const RunSummary& summary, std::ostream& err) {
-    if (options_.summary.empty()) return true;
-    try {
-      write_whole(options_.summary, mpm::json_text(summary.json(), 2) + "\n");
-      return true;
-    } catch (const MachineError& error) {
-      err << "run_scene: --summary " << error.what() << "\n";
       return false;
     }
   }
@@ -354,8 +261,7 @@ class OfflineRun {
   std::optional<RerunCheck> check_;
   std::vector<std::string> notes_;
   mpm::TimeProfile profile_;
-  std::unique_ptr<Leavable<CsvSink>> csv_;
-  std::unique_ptr<Leavable<VtkSink>> vtk_;
+  RunSceneFiles files_{options_, scene_, stamps_};  ///< files beside the recording
   std::unique_ptr<Run> run_;
 };
 

@@ -206,7 +206,7 @@ inline void check_row(const Row& row, const std::string& saved) {
     SCOPED_TRACE("dry");
     Twin twin;
     twin.transports = false;
-    // What it keeps awake is sorted in another order, in which contact at points sweeps: 2.3e-6 so far.
+    // Particles that it keeps awake are sorted in another order, in which contact at points sweeps: 2.3e-6 so far.
     expect_alike(run_of(block.text(twin)), plain, block.has(asleep) && block.has_tool() ? std::max(part, 1e-5) : part);
   }
   // Contact at nodes takes other normals beside a crack (contact/rigid_contact.hpp), and a thin tool parts cracked

@@ -2,7 +2,7 @@
 // body in the way that the crack does.
 //
 // Sources: each body alone; zero, which is exact for material behind a tool; the same problem with two bodies in the
-// place of the two sides of a crack. Cost: 10 s.
+// place of the two sides of a crack. Cost: 2 s.
 #include "crack_case.hpp"
 
 namespace verification {
@@ -19,13 +19,13 @@ bool warned(const mpm::Simulation& run, const std::string& text) {
 
 // --- far from each other --------------------------------------------------------------------------------------------
 
-constexpr double kEnd = 0.15;  // [s]
+constexpr double kEnd = 0.08;  // [s]
 
 /// A strip with a crack from its edge that is drawn apart, and a block far from it into which a blade of one cell is
 /// driven.
 std::string far_apart(bool strip, bool block) {
   std::string text =
-      "geometry: plane_strain\ngrid: {cell: 0.05, min: [0, 0], max: [3, 2]}\ntime: {end: 0.15, step: 5e-4, sync: "
+      "geometry: plane_strain\ngrid: {cell: 0.05, min: [0, 0], max: [3, 2]}\ntime: {end: 0.08, step: 2e-4, sync: "
       "0.01}\nmethod: {shape: ugimp, update: usavg, transfer: flip, damping: {grid: 20}}\n"
       "materials: [{name: m, law: linear_elastic, density: 1000, young: 1e6, poisson: 0.3}]\n"
       "boundaries: {z_min: fixed}\nbodies:\n";
@@ -37,7 +37,7 @@ std::string far_apart(bool strip, bool block) {
         "  - {traction: {body: strip, edge: z_max, traction: [0, \"1e3*min(t/0.05, 1)\"]}}\n"
         "  - {traction: {body: strip, edge: z_min, traction: [0, \"-1e3*min(t/0.05, 1)\"]}}\n"
         "cracks: {list: [{name: notch, body: strip, points: [[0.415, 1.125], [0.605, 1.125]], start: exterior, end: "
-        "tip, faces: ignored}]}\n";
+        "tip}]}\n";
   }
   if (block) {
     text +=
@@ -75,6 +75,7 @@ TEST(CrackThinTool, FarFromACrackEachIsAsAlone) {
   for (mpm::Simulation* run : {&both, &strip, &block}) run_all(*run);
   const mpm::Vec3 force = both.take_contact(0).mean.force, alone = block.take_contact(0).mean.force;
   EXPECT_GT(alone.norm(), 1.0);
+  EXPECT_EQ(both.state().step.steps, strip.state().step.steps) << "material under the blade shortens no step";
   EXPECT_LT((force - alone).norm(), kRoundOff * alone.norm());
   for (const char* name : {"x", "z", "vx", "vz"}) {
     EXPECT_LT(difference(both, block, name, "block"), kRoundOff) << name;
@@ -133,31 +134,31 @@ TEST(CrackThinTool, WhatIsPressedAgainstOneFaceIsNotFeltAtTheOther) {
 /// between their ends.
 std::string halves(bool crack) {
   const std::string divided =
-      "bodies: [{name: block, material: foam, shape: {box: {min: [-0.03, 0], max: [0.032, 0.1]}}}]\n"
-      "cracks:\n  list: [{name: split, points: [[0.001, 0.1005], [0.001, 0.0001]], start: exterior, end: none}]\n";
+      "bodies: [{name: block, material: foam, shape: {box: {min: [-0.019, 0], max: [0.021, 0.05]}}}]\n"
+      "cracks:\n  list: [{name: split, points: [[0.001, 0.0505], [0.001, 0.0001]], start: exterior, end: none}]\n";
   const std::string apart =
-      "bodies:\n  - {name: left, material: foam, shape: {box: {min: [-0.03, 0], max: [0.001, 0.1]}}}\n"
-      "  - {name: right, material: foam, shape: {box: {min: [0.001, 0], max: [0.032, 0.1]}}}\n"
+      "bodies:\n  - {name: left, material: foam, shape: {box: {min: [-0.019, 0], max: [0.001, 0.05]}}}\n"
+      "  - {name: right, material: foam, shape: {box: {min: [0.001, 0], max: [0.021, 0.05]}}}\n"
       "contact: {pairs: [{between: [left, right], friction: 0}]}\n";
   return "geometry: plane_strain\nthickness: 0.02\n"
-         "grid: {cell: 2e-3, min: [-0.04, 0], max: [0.042, 0.14]}\ntime: {end: 16e-3, cfl: 0.6, sync: 1e-4}\n"
+         "grid: {cell: 2e-3, min: [-0.03, 0], max: [0.032, 0.09]}\ntime: {end: 10e-3, cfl: 0.6, sync: 1e-4}\n"
          "method: {damping: {grid: 500}, transfer: {flip: 1}}\n"
-         "materials: [{name: foam, law: linear_elastic, density: 145, young: 67e6, poisson: 0.3}]\n"
+         "materials: [{name: foam, law: linear_elastic, density: 145, young: 6.7e6, poisson: 0.3}]\n"
          "boundaries: {z_min: fixed}\n"
          "rigid_bodies:\n  - name: wedge\n    friction: 0.2\n"
-         "    shape: {polygon: {points: [[0.001, 0.0985], [0.003, 0.1285], [-0.001, 0.1285]]}}\n"
+         "    shape: {polygon: {points: [[0.001, 0.0485], [0.003, 0.0785], [-0.001, 0.0785]]}}\n"
          "    motion: {velocity: [0, \"-0.8*min(1, t/0.002)\"]}\n"
-         "metrics:\n  force: {mean: impulse_z, of: wedge, rate: {from: 0.012, to: 0.015}}\n"
-         "  across: {mean: impulse_x, of: wedge, rate: {from: 0.012, to: 0.015}}\n" +
+         "metrics:\n  force: {mean: impulse_z, of: wedge, rate: {from: 0.007, to: 0.0095}}\n"
+         "  across: {mean: impulse_x, of: wedge, rate: {from: 0.007, to: 0.0095}}\n" +
          (crack ? divided : apart);
 }
 
 TEST(CrackThinTool, AThinWedgeMeetsTheSidesAsItDoesTwoBodies) {
   mpm::Simulation cracked = made(halves(true)), bodies = made(halves(false));
-  run_until(cracked, 16e-3);
-  run_until(bodies, 16e-3);
+  run_until(cracked, 10e-3);
+  run_until(bodies, 10e-3);
   const double force = bodies.metrics().at(0).second;
-  EXPECT_GT(force, 1.0);
+  EXPECT_GT(force, 0.1);
   EXPECT_NEAR(cracked.metrics().at(0).second / force, 1.0, 0.02);
   EXPECT_LT(std::abs(cracked.metrics().at(1).second), 1e-6 * force);
   EXPECT_LT(cracked.state().audit.residual, kRoundOff);

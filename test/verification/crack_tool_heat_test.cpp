@@ -3,7 +3,7 @@
 //
 // Sources: the slab with one insulated face (Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 3.11), in
 // which no heat flows across an upright crack; the same halves as two bodies, whose nodes hold the same material; the
-// balance of heat. Cost: 3 s.
+// balance of heat. Cost: 1 s.
 #include "crack_case.hpp"
 #include "transport_run.hpp"
 

@@ -179,7 +179,7 @@ class CrackFields final : public SideOfCracks {
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
   std::vector<LinePart> near_;                     ///< part of each crack, near a particle
-  bool tools_near_ = false;                        ///< whether a tool may lie near it
+  bool tools_near_ = false;                        ///< true if a tool may lie near it
   mutable std::vector<LinePart> around_;           ///< the same near a place and the nodes around it
   Chosen wanted_;                                  ///< by a particle
   std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< jumps of wanted_, set only where pairs jump [m]

@@ -206,10 +206,12 @@ inline void check_row(const Row& row, const std::string& saved) {
     SCOPED_TRACE("dry");
     Twin twin;
     twin.transports = false;
-    expect_alike(run_of(block.text(twin)), plain, part);
+    // Particles that it keeps awake are sorted in another order, in which contact at points sweeps: 2.3e-6 so far.
+    expect_alike(run_of(block.text(twin)), plain, block.has(asleep) && block.has_tool() ? std::max(part, 1e-5) : part);
   }
-  // Contact at nodes takes other normals beside a crack (contact/rigid_contact.hpp).
-  if (block.has(crack) && !block.is(tool, "nodes")) {
+  // Contact at nodes takes other normals beside a crack (contact/rigid_contact.hpp), and a thin tool parts cracked
+  // material pair by pair (crack/tool_cuts.hpp).
+  if (block.has(crack) && !block.is(tool, "nodes") && !block.is(tool, "thin")) {
     SCOPED_TRACE("faces that move as one, and no crack");
     Twin twin, whole;
     twin.joined = true;

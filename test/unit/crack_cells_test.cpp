@@ -15,7 +15,7 @@ struct Cells {
     for (const auto& [points, end] : lines) {
       cracks.push_back({{}, Chain(points, {CrackEnd::none, end}, false), {1, 0}, true});
     }
-    cells = std::make_unique<CrackCells>(cracks, sets, layout);
+    cells = std::make_unique<CrackCells>(cracks, none, sets, layout);
     cells->look_at({1, 1, 0});
   }
   int part(double x, double z, std::size_t set = 0) const {
@@ -24,6 +24,7 @@ struct Cells {
   GridLayout layout;
   std::vector<ParticleSet> sets;
   std::vector<Crack> cracks;
+  ToolCuts none;
   std::unique_ptr<CrackCells> cells;
 };
 

@@ -348,17 +348,14 @@ std::string refusal_beside(const std::string& section, std::size_t number = 0, c
   return crack_refusal(spoilt_scene(number, line) + section);
 }
 
-TEST(SceneCrackBadInput, WhatIsNotYetTogetherWithCracks) {
+TEST(SceneCrackBadInput, WhatGoesTogetherWithCracks) {
   EXPECT_EQ(refusal_beside("sleep: {speed: 1 mm/s, after: 1 ms}\n"), "no error");
   EXPECT_EQ(refusal_beside("transport: {temperature: {}}\n", 6, "    density: 2500\n    heat_capacity: 800"),
             "no error");
   const std::string blade =
       "rigid_bodies: [{name: blade, shape: {box: {size: [0.05, 0.4]}}, pose: {position: [1, 1.5]}";
-  const std::string thin = refusal_beside(blade + "}]\n");
-  EXPECT_EQ(thin.rfind("bad.yaml:17: cracks: cracks and thin tools, whose sides", 0), 0u) << thin;
-  EXPECT_NE(thin.find("('blade') do not go together"), std::string::npos) << thin;
-  EXPECT_NE(thin.find("write sides: one for it"), std::string::npos) << thin;
-  EXPECT_NE(refusal_beside(blade + ", sides: two}]\n").find("and thin tools,"), std::string::npos);
+  EXPECT_EQ(refusal_beside(blade + "}]\n"), "no error");
+  EXPECT_EQ(refusal_beside(blade + ", sides: two}]\n"), "no error");
 }
 
 }  // namespace scene_crack_bad_input_test

@@ -135,8 +135,6 @@ class PointContact final : public Stage, public ContactReporter {
   void clear_impulses();
   /// Sets the impulses that the step's solution begins with.
   void begin_impulses();
-  /// Tells of the heat of friction [J] at a point, and of its touch.
-  void tell_of_heat(const PointSolver::Point& point, const Contact& contact, double friction, double dt) const;
   /// Books the impulse of a point whose body moves with `velocity` there.
   void give(std::size_t point, const Vec3& velocity, const Vec3& mean_slip);
 

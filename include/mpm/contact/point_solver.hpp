@@ -94,14 +94,8 @@ class PointSolver {
   /// The nodes' velocities, weighted as an impulse is spread [m/s]. Near an edge on a free surface this is not what
   /// contact sees: an impulse times the difference is the energy that is lost where material is cut (edge_cover.hpp).
   Vec3 carried_at(const Point& point) const;
-  /// visit(node, part of an impulse) for the nodes of a point.
-  template <class Visit>
-  void each_node(const Point& point, Visit&& visit) const {
-    for (int i = point.first; i < point.end; ++i) {
-      const NodeOrigin& origin = origins_[parts_[i].node];
-      visit(FieldNode{origin.field, origin.ref}, parts_[i].weight);
-    }
-  }
+  /// The nodes of the material at a point that was found, beside a crack those on its side.
+  MaterialNodes nodes_of(const ContactPoint& point) const;
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
   /// Applies them to free bodies alone.
@@ -144,7 +138,6 @@ class PointSolver {
   /// Number of threads that pays for this number of points.
   int threads_for(int points) const;
   void find_weights(const std::vector<ContactPoint>& found);
-  MaterialNodes nodes_of(const ContactPoint& point) const;
   /// Puts the points of one block together, in the order in which they are solved.
   void cluster(const std::vector<ContactPoint>& found);
   void add(const ContactPoint& point, int found);

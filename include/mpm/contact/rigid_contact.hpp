@@ -47,6 +47,9 @@ class RigidContact final : public Stage, public ContactReporter {
   /// `fields`: one mark for each velocity field, not 0 where a normal is that at a node's mass centre. These need
   /// Grid::place on blocks that the body's bounds meet.
   void take_normals_at_centres(std::vector<std::uint8_t> fields) { centred_ = std::move(fields); }
+  /// `fields`: one mark for each, not 0 for those of bodies that cracks and this thin tool divide, whose material is in
+  /// another field at a node that it reaches through the tool.
+  void divide(std::vector<std::uint8_t> fields) { divided_ = std::move(fields); }
 
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
@@ -105,6 +108,7 @@ class RigidContact final : public Stage, public ContactReporter {
   std::vector<std::vector<Node>> nodes_;  ///< nodes of each block in near_
   std::vector<HeldNodes> held_;           ///< held nodes of each field
   std::vector<std::uint8_t> centred_;     ///< for each field, 1 if normals are those at its mass centres
+  std::vector<std::uint8_t> divided_;     ///< for each field, 1 if its material is cracked and divided by the tool
   ContactLedger ledger_;
   HeatSink* heat_;
   int touching_ = 0;

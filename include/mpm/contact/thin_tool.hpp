@@ -24,6 +24,8 @@ inline bool has_sides(const RigidBodyDefinition& body, GeometryKind geometry, do
   return body.sides == Sides::two ||
          (body.sides == Sides::automatic && !body.particles && is_thin(body, geometry, cell));
 }
+/// True if a tool whose sides have a field each divides this deformable body: all, unless it names some.
+bool divides(const RigidBodyDefinition& tool, const std::string& body);
 
 class ThinTool {
  public:

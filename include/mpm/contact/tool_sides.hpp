@@ -10,6 +10,9 @@
 // move as one where it happens. A particle whose centre is in the tool or hardly outside keeps its side, since it is
 // pressed against the tool and has not passed it.
 //
+// In bodies that cracks divide a tool is told from a crack by its number (crack/tool_cuts.hpp): their particles have no
+// side here, and nothing is joined.
+//
 // Over several ranks each labels its own particles, which keep their side when they go to another rank, and joins the
 // nodes that it has: where ranks share a node they have both fields there, with the same bits.
 //

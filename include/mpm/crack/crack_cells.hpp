@@ -4,8 +4,10 @@
 // the cell's first node crosses it or not, and that is the side. A cell in which a crack ends is one, since material
 // beyond the tip joins both sides; an exterior end is no such end (Chain::line()).
 //
-// Weak: of the cracks that a body heeds, two divide a cell, those that the scene names first. A crack that ends on
-// another one within a cell does not divide it there.
+// A thin tool divides a cell if no two corners on its two sides see each other (crack/tool_cuts.hpp).
+//
+// Weak: of the cracks and tools that a body heeds, two divide a cell, cracks first, and of each kind those that the
+// scene names first. A crack that ends on another one within a cell does not divide it there.
 #pragma once
 
 #include <array>
@@ -23,16 +25,17 @@ class CrackCells final : public CellParts {
   static constexpr int kMostCracks = 2;  ///< that divide one cell
 
   /// All outlive this object.
-  CrackCells(const std::vector<Crack>& cracks, const std::vector<ParticleSet>& sets, const GridLayout& layout)
-      : cracks_(cracks), sets_(sets), layout_(layout) {}
+  CrackCells(const std::vector<Crack>& cracks, const ToolCuts& cuts, const std::vector<ParticleSet>& sets,
+             const GridLayout& layout)
+      : cracks_(cracks), tools_(cuts), sets_(sets), layout_(layout) {}
 
-  int most() const override { return cracks_.size() == 1 ? 2 : 1 << kMostCracks; }
+  int most() const override { return cracks_.size() + tools_.count() == 1 ? 2 : 1 << kMostCracks; }
   void look_at(const std::array<int, 3>& block) override;
   int part_of(const ParticleSet& set, const std::array<int, 3>& cell, const Vec2& place) const override;
 
  private:
   static constexpr int kEdge = kBlockEdge + 1;  ///< cells along an edge in which particles of a block lie
-  /// Part of a crack in a cell that it divides.
+  /// Part of a crack in a cell that it divides, or a tool, by its number.
   struct Cut {
     int crack;
     LinePart part;
@@ -40,6 +43,7 @@ class CrackCells final : public CellParts {
   Vec2 corner(const std::array<int, 3>& cell) const;
 
   const std::vector<Crack>& cracks_;
+  const ToolCuts& tools_;
   const std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
   std::array<int, 3> block_{};

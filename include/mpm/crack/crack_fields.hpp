@@ -9,10 +9,13 @@
 // With one crack only 0 and 1 exist. 0 of a node holds what lies on the node's own side, so above a crack is 0 at some
 // nodes and 1 at others; the side of what is across stands with the node. What does not fit is put into 0 and counted.
 //
-// Particles choose where they lie in blocks whose tile a chain reaches; these are found at a sort, with room for the
-// chain to move, and a sort is asked for when it has used that up. All others spread to one field as ever.
-// Over several ranks each finds the pairs of its own particles; then all agree on what the fields of a node hold, and
-// know all nodes with the same bits (crack_fields_ranks.cpp).
+// A thin tool that divides the material does so in the same way (crack/tool_cuts.hpp), and is told from cracks by its
+// number.
+//
+// Particles choose where they lie in blocks whose tile a chain or such a tool reaches; these are found at a sort, with
+// room for it to move, and a sort is asked for when it has used that up. All others spread to one field as ever. Over
+// several ranks each finds the pairs of its own particles; then all agree on what the fields of a node hold, and know
+// all nodes with the same bits (crack_fields_ranks.cpp).
 //
 // Weak: the way begins at the particle's centre, so a domain that reaches over a crack is not cut.
 // Source: Nairn (2003), CMES 4(6), 649-663; crack reference 1.2, 2.1, 2.2, 2.5.
@@ -26,6 +29,7 @@
 #include "mpm/crack/divided_node.hpp"
 #include "mpm/crack/field_jumps.hpp"
 #include "mpm/crack/line_part.hpp"
+#include "mpm/crack/tool_cuts.hpp"
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/ranks/communicator.hpp"
@@ -47,17 +51,18 @@ struct Crack {
 class CrackFields final : public SideOfCracks {
  public:
   /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides. `jumps`: of pairs
-  /// that growth has put into another field since the last step. `ranks`: null on one process.
+  /// that growth has put into another field since the last step. `cuts`: tools that divide such sets. `ranks`: null on
+  /// one process.
   CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice, const FieldJumps& jumps,
-              const FieldMap& map, Grouping grouping, ShapeKind shape, int threads, Communicator* ranks);
+              const FieldMap& map, Grouping grouping, ShapeKind shape, ToolCuts cuts, int threads, Communicator* ranks);
 
   /// Says which particles choose, before a sort.
   void before_sort();
-  /// True if a chain has come near particles that do not choose.
+  /// True if a chain or a tool has come near particles that do not choose.
   bool needs_sort() const;
   /// Finds the fields of all pairs, and sorts particles into patches. Collective.
   void choose();
-  /// True if nodes of the block may lie within so many cells of a chain, until the next sort.
+  /// True if nodes of the block may lie within so many cells of a chain or a tool, until the next sort.
   bool near(const std::array<int, 3>& block, double cells) const;
 
   /// Nodes at which something has been found across a crack, in the order of their finding; over several ranks in that
@@ -93,6 +98,7 @@ class CrackFields final : public SideOfCracks {
   /// Number of fields that a group has, field 0 among them.
   int fields_of(int first) const { return 1 + across_[first]; }
   const Grid& patches() const { return choice_.grid(); }
+  const ToolCuts& cuts() const { return cuts_; }
   /// The field 0 of every set that the crack divides, each once.
   std::vector<int> groups(int crack) const;
 
@@ -120,6 +126,7 @@ class CrackFields final : public SideOfCracks {
     int block;                    ///< block of NodeChoice::blocks()
     std::array<int, 3> corner;    ///< number of its first node along each axis
     std::vector<LinePart> parts;  ///< part of each crack
+    bool tools = false;           ///< true if a tool that divides material may lie in it
   };
 
   /// A node in the first field of a group: its block's number (-1: none), its place there, and in node_at_.
@@ -127,7 +134,7 @@ class CrackFields final : public SideOfCracks {
     int number, local;
     std::size_t index;
   };
-  /// True if the crack divides material of this group.
+  /// True if the crack, or the tool of that number, divides material of this group.
   bool divides(int crack, int first) const;
   /// Finds the segments of cracks between `from` and the nodes around a place, for find_node().
   void look_around(int first, const Vec2& place, const Vec2& from) const;
@@ -166,11 +173,13 @@ class CrackFields final : public SideOfCracks {
   std::vector<int> across_;                        ///< number of fields that follow each field 0
   std::vector<std::vector<std::uint8_t>> heeded_;  ///< [set][crack]
   ShapeKind shape_;
+  ToolCuts cuts_;
   int threads_;
   Communicator* ranks_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
   std::vector<LinePart> near_;                     ///< part of each crack, near a particle
+  bool tools_near_ = false;                        ///< true if a tool may lie near it
   mutable std::vector<LinePart> around_;           ///< the same near a place and the nodes around it
   Chosen wanted_;                                  ///< by a particle
   std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< jumps of wanted_, set only where pairs jump [m]

@@ -1,7 +1,7 @@
 // Choice of the velocity field that material belongs to: a map from a body and a side to the number of a field
 // (grid/fields.hpp). Bodies of one group share a velocity, so they share a field. A body that a thin tool divides has a
 // second field, for its material on side 1. A body that cracks divide has more of them, for what lies across a crack
-// from a node; a particle of it may spread to several (grid/node_choice.hpp). The other bodies have one.
+// or a thin tool from a node; a particle of it may spread to several (grid/node_choice.hpp). The other bodies have one.
 #pragma once
 
 #include <array>

@@ -47,8 +47,8 @@ struct ParticleSet {
   bool sorts_by_id = false;
   int field = 0;      ///< velocity field of its particles
   int far_field = 0;  ///< velocity field of those on side 1, where a thin tool divides the body
-  /// Those on side 1 are near a crack and choose a field at every node; far_field is the number of their patches
-  /// (grid/node_choice.hpp).
+  /// Those on side 1 are near a crack, or a tool that divides the cracked body, and choose a field at every node;
+  /// far_field is the number of their patches (grid/node_choice.hpp).
   bool chooses = false;
 
   Precision precision = Precision::float64;  ///< precision of velocity, deformation, stress and history

@@ -18,6 +18,7 @@
 #include "mpm/ranks/halo.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/traction.hpp"
+#include "mpm/step/material_nodes.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -39,9 +40,8 @@ struct NodeShares {
   std::array<double, 8> share{};
 };
 
-/// Shares of a place by grid axis [m], in field `field` with this grid. A count of 0: no node around it carries
-/// material.
-NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at, int field = 0);
+/// Shares of a place by grid axis [m], in the nodes of the material there. A count of 0: no node around it carries any.
+NodeShares node_shares(const MaterialNodes& material, const PlacedDomain::Vector& at);
 
 class DomainFaces {
  public:

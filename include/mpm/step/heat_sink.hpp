@@ -7,6 +7,7 @@
 #include "mpm/grid/nodal_fields.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/material_nodes.hpp"
 
 namespace mpm {
 
@@ -14,11 +15,12 @@ class HeatSink {
  public:
   virtual ~HeatSink() = default;
 
-  /// A rigid body touches the material of a velocity field's grid at a place over `area` [m^2] in this step of `dt`
-  /// [s], where friction took `friction` [J].
-  virtual void touch(const RigidBody& tool, const Grid& grid, const Vec3& place, double area, double friction,
-                     double dt) = 0;
-  /// The same at a node (HeldNodes::id), without an area. No tool: a wall, which takes no heat.
+  /// A rigid body touches material, which has these nodes, at a place over `area` [m^2] in this step of `dt` [s], where
+  /// friction took `friction` [J].
+  virtual void touch(const RigidBody& tool, const MaterialNodes& material, const Vec3& place, double area,
+                     double friction, double dt) = 0;
+  /// The same at a node (HeldNodes::id) of a velocity field's grid, without an area. No tool: a wall, which takes no
+  /// heat.
   virtual void rub(const RigidBody* tool, const Grid& grid, std::uint64_t node, double friction, double dt) = 0;
   /// The material of two grids meets at a node.
   virtual void meet(const Grid& one, const Grid& other, std::uint64_t node, double area, double friction,

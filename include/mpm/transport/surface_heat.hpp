@@ -16,6 +16,9 @@
 // its nodes the heat of that node's own temperature, so that a light node at the edge of a body does not go beyond the
 // tool's temperature while heavier ones behind it are still cold.
 //
+// Beside a crack each node of a touch is in the velocity field that the touched material has there, so that no heat
+// crosses the crack.
+//
 // Weak: over several ranks, friction at a wall or between two bodies whose place no longer has material when it is to
 // be given is lost; one process gives it at the next place.
 #pragma once
@@ -46,7 +49,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   SurfaceHeat(const Fields& fields, const std::vector<RigidBody>& bodies, std::vector<double> effusivities,
               std::vector<ToolHeat> tools, std::vector<double> pairs, const Communicator* ranks = nullptr);
 
-  void touch(const RigidBody& tool, const Grid& grid, const Vec3& place, double area, double friction,
+  void touch(const RigidBody& tool, const MaterialNodes& material, const Vec3& place, double area, double friction,
              double dt) override;
   void rub(const RigidBody* tool, const Grid& grid, std::uint64_t node, double friction, double dt) override;
   void meet(const Grid& one, const Grid& other, std::uint64_t node, double area, double friction, double dt) override;
@@ -64,11 +67,12 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
  private:
   /// By name, since blocks may change their places until heat is given.
   struct Share {
+    int field;
     std::uint64_t node;  ///< HeldNodes::id
     double share;
   };
   struct Touch {
-    int tool, field, first, count;  ///< range of shares_; tool negative: none with heat
+    int tool, first, count;  ///< range of shares_; tool negative: none with heat
     double area, friction, dt;
     bool by_tool;  ///< true if, over several ranks, all of them know of it
   };
@@ -81,6 +85,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   int tool_of(const RigidBody* body) const;
   /// A block of -1: no material is there any more.
   NodeRef find(int field, std::uint64_t node) const;
+  NodeRef find(const Share& share) const { return find(share.field, share.node); }
   /// True if a touch, or a meeting at this node, counts to sums here.
   bool counts(const Touch& touch) const;
   bool counts(int field, NodeRef node) const { return fields_[field]->counts(node.block); }

@@ -181,7 +181,8 @@ void PointContact::momentum_updated(StepContext& context) {
     const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
     ledgers_[contact.found->body].add_loss({0.0, held - friction - cut});
     if (heat_ != nullptr && (point.hold != Hold::free || contact.gap <= kTouching * cell_)) {
-      tell_of_heat(point, contact, friction, context.dt);
+      heat_->touch(*bodies_[contact.found->body], solver_.nodes_of(*contact.found), point.place, contact.found->area,
+                   friction, context.dt);
     }
     const Vec3 along = along_surface(slip, point.normal);
     // Material that has come to rest has friction at rest again.
@@ -229,24 +230,6 @@ void PointContact::increment_found(StepContext&) {
     const PointSolver::Point& point = solver_.points()[i];
     cut_ += point.impulse.dot(0.5 * (contacts_[i].cut + solver_.velocity_at(point) - solver_.carried_at(point)));
   }
-}
-
-// Nodes that cracks divide are warmed by friction each in its field; nothing is exchanged with tools there
-// (rules/feature_rules.hpp).
-void PointContact::tell_of_heat(const PointSolver::Point& point, const Contact& contact, double friction,
-                                double dt) const {
-  const RigidBody& body = *bodies_[contact.found->body];
-  if (contact.found->chooser < 0) {
-    heat_->touch(body, *fields_[contact.found->field], point.place, contact.found->area, friction, dt);
-    return;
-  }
-  double whole = 0.0;  // nodes beyond an edge have negative parts of an impulse, and no heat
-  solver_.each_node(point, [&](const FieldNode&, double part) { whole += std::max(part, 0.0); });
-  solver_.each_node(point, [&](const FieldNode& node, double part) {
-    const Grid& grid = *fields_[node.field];
-    const std::uint64_t id = HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node);
-    if (part > 0.0) heat_->rub(&body, grid, id, friction * part / whole, dt);
-  });
 }
 
 void PointContact::give(std::size_t i, const Vec3& velocity, const Vec3& mean_slip) {

@@ -27,6 +27,7 @@ RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, G
       thin_(sides == nullptr ? nullptr : sides->find(body)),
       held_(fields.size()),
       centred_(fields.size(), 0),
+      divided_(fields.size(), 0),
       ledger_(body, axisymmetric(geometry)),
       heat_(heat) {}
 
@@ -37,7 +38,8 @@ Vec3 RigidContact::mass_centre(int field, NodeRef node) const {
 
 bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const {
   const Surface& surface = body_.surface();
-  if (thin_ == nullptr || !sides_->map().one_sided(field)) {
+  const bool one_sided = thin_ != nullptr && sides_->map().one_sided(field);
+  if (!one_sided && divided_[field] == 0) {
     if (!surface.within(body_.pose().to_body(place), reach, point)) return false;
     if (centred_[field] != 0) point.normal = surface.at(body_.pose().to_body(mass_centre(field, node))).normal;
     return true;
@@ -48,7 +50,8 @@ bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double re
   if (point.distance > reach && !thin_->between(centre, place)) return false;
   point = surface.at(body_.pose().to_body(centre));
   // Pressed past the middle of the tool, it is still to be pushed out where it came from.
-  if (point.distance < 0.0 && thin_->side(centre) != sides_->map().side(field)) point.normal = -point.normal;
+  if (one_sided && point.distance < 0.0 && thin_->side(centre) != sides_->map().side(field))
+    point.normal = -point.normal;
   return true;
 }
 

@@ -37,6 +37,11 @@ bool is_thin(const RigidBodyDefinition& body, GeometryKind geometry, double cell
   return !rod || surface.bounds().size().z() < kThinCells * cell;
 }
 
+bool divides(const RigidBodyDefinition& tool, const std::string& body) {
+  const auto& named = tool.divides;
+  return named.empty() || std::find(named.begin(), named.end(), body) != named.end();
+}
+
 ThinTool::ThinTool(const RigidBody& body, GeometryKind geometry) : body_(&body) {
   const RigidBodyDefinition& definition = body.definition();
   if (definition.inner_radius > 0.0) {  // the section of a ring, in the half plane

@@ -36,7 +36,7 @@ void ToolSides::before_sort() {
   for (ThinTool& tool : tools_) tool.aim();
   const double largest = layout_.largest_cell();
   for (ParticleSet& set : sets_) {
-    if (set.side.empty()) continue;
+    if (set.side.empty() || set.chooses) continue;
     double half = std::numeric_limits<double>::infinity();
     for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
     for_particles("contact: sides of thin tools", set, threads_, [&](int p) {  // near a tool nothing sleeps

@@ -29,6 +29,7 @@ void CrackCells::look_at(const std::array<int, 3>& block) {
     if (!cracks_[c].felt) continue;
     near_[c] = part_between(chain, whole_line(chain), corner({-1, -1, 0}), corner({kBlockEdge, kBlockEdge, 0}));
   }
+  const bool tools = tools_.meet(corner({-1, -1, 0}), corner({kBlockEdge, kBlockEdge, 0}));
   for (int i = 0; i < kEdge; ++i) {
     for (int j = 0; j < kEdge; ++j) {
       const Vec2 low = corner({i - 1, j - 1, 0}), high = low + edge;
@@ -41,6 +42,9 @@ void CrackCells::look_at(const std::array<int, 3>& block) {
         }
         cuts_.push_back({static_cast<int>(c), part});
       }
+      for (int t = 0; tools && t < tools_.count(); ++t) {
+        if (tools_.parts(t, low, high)) cuts_.push_back({static_cast<int>(cracks_.size()) + t, {}});
+      }
       of_cell_[kEdge * i + j + 1] = static_cast<int>(cuts_.size());
     }
   }
@@ -51,6 +55,12 @@ int CrackCells::part_of(const ParticleSet& set, const std::array<int, 3>& cell, 
   const int at = kEdge * (cell[0] + 1) + cell[1] + 1;
   int part = 0, cracks = 0;
   for (int cut = of_cell_[at]; cut < of_cell_[at + 1] && cracks < kMostCracks; ++cut) {
+    if (const int tool = cuts_[cut].crack - static_cast<int>(cracks_.size()); tool >= 0) {
+      if (!tools_.divides(tool, number)) continue;
+      if (tools_.above(tool, place)) part |= 1 << cracks;
+      ++cracks;
+      continue;
+    }
     const Crack& crack = cracks_[cuts_[cut].crack];
     if (crack.divides[number] == 0) continue;
     const LinePart& of = cuts_[cut].part;

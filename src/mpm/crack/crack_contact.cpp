@@ -12,8 +12,12 @@ constexpr int kMembers = DividedNode::kFields;
 /// Faces that lie on each other to round-off touch [cells].
 constexpr double kTouch = 1e-12;
 
-/// True if the faces of a crack act on each other.
-bool meets(const Crack& crack) { return crack.felt && !crack.definition.faces.ignored; }
+/// True if what lies across this crack acts on what does not; a tool's number is no crack's.
+bool meets(const std::vector<Crack>& cracks, const AcrossCrack& across) {
+  if (across.crack < 0 || across.crack >= static_cast<int>(cracks.size())) return false;
+  const Crack& crack = cracks[across.crack];
+  return crack.felt && !crack.definition.faces.ignored;
+}
 
 /// On which side of a crack the material of field 3 lies.
 bool both_above(const DividedNode& node, int crack) {
@@ -203,7 +207,7 @@ void CrackContact::add_node(const DividedNode& divided) {
   found.nodes.push_back(node);  // for add_pair()
   const std::array<AcrossCrack, 2>& single = divided.single;
   const auto add = [&](int of, int own, int across, bool across_is_above) {
-    if (group[own] < 0 || group[across] < 0 || single[of].crack < 0 || !meets(cracks_[single[of].crack])) return;
+    if (group[own] < 0 || group[across] < 0 || !meets(cracks_, single[of])) return;
     const int above = across_is_above ? across : own, below = across_is_above ? own : across;
     add_pair(single[of].crack, group[above], group[below], divided.normal[of], identity(divided, above, below));
   };
@@ -230,7 +234,8 @@ int CrackContact::identity(const DividedNode& node, int above, int below) const 
     const int crack = node.single[field - 1].crack;
     return crack < 2 ? 1 + crack : 2 + crack;
   };
-  const int fields = static_cast<int>(fields_.size()), cracks = static_cast<int>(cracks_.size());
+  const int fields = static_cast<int>(fields_.size());
+  const int cracks = static_cast<int>(cracks_.size()) + chosen_.cuts().count();
   const int labels = cracks > 2 ? std::max(fields, cracks + 2) : fields;
   return (node.first + label(above)) * labels + node.first + label(below);
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mpm/crack/crossing.hpp"
+#include "mpm/crack/near_blocks.hpp"
 #include "mpm/particles/for_particles.hpp"
 #include "mpm/shape/domain_shear.hpp"
 #include "mpm/shape/particle_domain.hpp"
@@ -11,7 +13,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kRoom = 0.25;  ///< for a chain to move between two sorts [cells]
+constexpr double kRoom = 0.25;  ///< for a chain or a tool to move between two sorts [cells]
 
 constexpr double kSlack = 1e-6;  ///< slack of the extent of a particle [cells]
 
@@ -38,14 +40,15 @@ Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.
 }  // namespace
 
 CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice,
-                         const FieldJumps& jumps, const FieldMap& map, Grouping grouping, ShapeKind shape, int threads,
-                         Communicator* ranks)
+                         const FieldJumps& jumps, const FieldMap& map, Grouping grouping, ShapeKind shape,
+                         ToolCuts cuts, int threads, Communicator* ranks)
     : cracks_(cracks),
       sets_(sets),
       choice_(choice),
       jumps_(jumps),
       sorter_(grouping),
       shape_(shape),
+      cuts_(std::move(cuts)),
       threads_(threads),
       ranks_(ranks),
       near_(cracks.size()),
@@ -63,28 +66,18 @@ CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& s
   }
 }
 
-// visit(key) for every block with a chain within `margin` of its tile.
+// visit(key) for every block with a chain, or a tool that divides material, within `margin` of its tile.
 template <class Visit>
 void CrackFields::each_near_block(double margin, Visit&& visit) const {
   const GridLayout& layout = choice_.grid().layout;
+  const auto visit_key = [&](const std::array<int, 3>& block) { visit(layout.key(block)); };
   for (const Crack& crack : cracks_) {
     const std::vector<Vec2>& line = crack.chain.line();
-    const int last = static_cast<int>(line.size()) - 2;
-    for (int k = 0; k <= last; ++k) {
-      std::array<int, 2> low{}, high{};
-      for (int a = 0; a < 2; ++a) {
-        // Tile nodes of block B are 4 B - 2 to 4 B + 5.
-        const double from = layout.in_cells(a, std::min(line[k][a], line[k + 1][a])) - margin;
-        const double to = layout.in_cells(a, std::max(line[k][a], line[k + 1][a])) + margin;
-        const double last_block = layout.last_node(a) / static_cast<double>(kBlockEdge);
-        low[a] = static_cast<int>(std::clamp(std::ceil((from - 5.0) / kBlockEdge), 0.0, last_block + 1.0));
-        high[a] = static_cast<int>(std::clamp(std::floor((to + 2.0) / kBlockEdge), -1.0, last_block));
-      }
-      for (int i = low[0]; i <= high[0]; ++i) {
-        for (int j = low[1]; j <= high[1]; ++j) visit(layout.key({i, j, 0}));
-      }
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      each_block_near(layout, line[k].cwiseMin(line[k + 1]), line[k].cwiseMax(line[k + 1]), margin, visit_key);
     }
   }
+  cuts_.each_near_block(layout, margin, visit_key);
 }
 
 void CrackFields::find_listed() {
@@ -100,7 +93,7 @@ void CrackFields::before_sort() {
   find_listed();
   const GridLayout& layout = choice_.grid().layout;
   for (ParticleSet& set : sets_) {
-    if (set.side.empty()) continue;
+    if (!set.chooses || set.side.empty()) continue;
     for_particles("crack: particles near it", set, threads_, [&](int p) {
       std::array<int, 3> block{};
       bool finite = true;  // the sort tells of what is not, and of those outside, which may be put back
@@ -154,6 +147,11 @@ int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, con
     normals[between.count] = found.normal;
     between.across[between.count++] = {static_cast<int>(c), found.above};
   }
+  if (tools_near_ && !cuts_.add_between(
+                         particle, node, [&](int cut) { return cuts_.divides(cut, set); }, between)) {
+    ++misfits_;
+    return 0;
+  }
   int slot = 0;
   if (between.count > 0) slot = take_slot(divided_node(tile, tile_node, sets_[set].field, node), between, normals);
   if (!jumps_.any()) return slot;
@@ -202,7 +200,8 @@ void CrackFields::find_wanted(const Tile& tile, std::size_t set, std::size_t par
     low[k] = std::min(place[k], layout.origin(k) + layout.cell(k) * first[k]);
     high[k] = std::max(place[k], layout.origin(k) + layout.cell(k) * last[k]);
   }
-  bool any = false;
+  tools_near_ = tile.tools && cuts_.meet(low, high);
+  bool any = tools_near_;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     near_[c] = {};
     if (!tile.parts[c].misses(low, high)) near_[c] = part_between(cracks_[c].chain, tile.parts[c], low, high);
@@ -325,6 +324,7 @@ void CrackFields::find_patches() {
       if (!cracks_[c].felt) continue;
       tile_.parts[c] = part_between(cracks_[c].chain, whole_line(cracks_[c].chain), low, high);
     }
+    tile_.tools = cuts_.meet(low, high);
     patches_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       for (std::uint32_t p = sorter_.begin(s, b); p < sorter_.begin(s, b + 1); ++p) {

@@ -50,6 +50,8 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
     if (between.count == 2) return {};
     between.across[between.count++] = {static_cast<int>(c), found.above};
   }
+  const auto of_group = [&](int cut) { return divides(static_cast<int>(cracks_.size()) + cut, first); };
+  if (!cuts_.add_between(from, place, of_group, between)) return {};
   return field_at(first, own, between);
 }
 
@@ -70,6 +72,8 @@ FieldNode CrackFields::node_of(int set, const Vec3& from, const std::array<int, 
     if (between.count == 2) return {};
     between.across[between.count++] = {static_cast<int>(c), found.above};
   }
+  const auto of_set = [&](int cut) { return cuts_.divides(cut, set); };
+  if (!cuts_.add_between(particle, place, of_set, between)) return {};
   return field_at(first, own, between);
 }
 
@@ -101,8 +105,9 @@ CrackFields::NodeOfField CrackFields::find_across(int first, int crack, const st
 }
 
 bool CrackFields::divides(int crack, int first) const {
+  const int cut = crack - static_cast<int>(cracks_.size());
   for (std::size_t s = 0; s < sets_.size(); ++s) {
-    if (sets_[s].field == first && cracks_[crack].divides[s] != 0) return true;
+    if (sets_[s].field == first && (cut < 0 ? cracks_[crack].divides[s] != 0 : cuts_.divides(cut, s))) return true;
   }
   return false;
 }

@@ -12,7 +12,6 @@
 #include "mpm/contact/tool_sides.hpp"
 #include "mpm/definition/definition.hpp"
 #include "mpm/definition/rigid_contacts.hpp"
-#include "mpm/mechanics/mass_places.hpp"
 #include "mpm/modules/shipped_modules.hpp"
 
 namespace mpm {
@@ -134,16 +133,15 @@ std::vector<std::uint8_t> divided_fields(const RunParts& parts) {
   return divided;
 }
 
-/// Finds mass centres of nodes near these tools.
-void add_mass_places(RunParts& parts, std::vector<const RigidBody*> tools) {
-  const double cell = parts.layout().smallest_cell();
-  const auto near = [tools = std::move(tools), cell](const Vec3& middle, double radius) {
-    return std::any_of(tools.begin(), tools.end(), [&](const RigidBody* tool) {
-      return Box{middle, middle}.grown(radius + tool->reach() * cell).intersects(tool->world_bounds());
-    });
-  };
-  const ShapeKind shape = parts.definition.method.shape;
-  parts.modules.add(make_mass_places(parts.make_transfer(shape), parts.fields, parts.sets, near));
+/// One mark for each velocity field, not 0 for those of bodies that cracks and this thin tool divide.
+std::vector<std::uint8_t> fields_divided_by(const RigidBody& body, const RunParts& parts) {
+  std::vector<std::uint8_t> divided(parts.fields.size(), 0);
+  if (parts.sides == nullptr || parts.sides->find(body) == nullptr) return divided;
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    if (!parts.sets[s].chooses || !divides(body.definition(), parts.sets[s].name)) continue;
+    for (const int field : parts.map.fields(static_cast<int>(s))) divided[field] = 1;
+  }
+  return divided;
 }
 
 }  // namespace
@@ -166,7 +164,6 @@ void add_rigid_contact(RunParts& parts) {
   const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);
   std::vector<RigidBody*> met_at_points;
   std::vector<ContactLaw> laws_at_points;
-  std::vector<const RigidBody*> beside_cracks;
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     RigidBody& body = parts.bodies[b];
     const auto first = laws.begin() + static_cast<std::ptrdiff_t>(b * parts.sets.size());
@@ -179,7 +176,7 @@ void add_rigid_contact(RunParts& parts) {
                                                     definition.gravity, parts.heat);
       if (parts.choice != nullptr) {
         contact->take_normals_at_centres(divided_fields(parts));
-        beside_cracks.push_back(&body);
+        contact->divide(fields_divided_by(body, parts));
       }
       parts.modules.add(std::move(contact));
     } else {
@@ -187,7 +184,6 @@ void add_rigid_contact(RunParts& parts) {
       laws_at_points.insert(laws_at_points.end(), own.begin(), own.end());
     }
   }
-  if (!beside_cracks.empty()) add_mass_places(parts, std::move(beside_cracks));
   if (!met_at_points.empty()) add_point_contact(parts, met_at_points, std::move(laws_at_points));
 }
 

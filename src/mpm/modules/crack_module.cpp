@@ -1,7 +1,10 @@
 // The explicit cracks of a definition as modules.
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "mpm/contact/point_contact.hpp"
+#include "mpm/contact/tool_sides.hpp"
 #include "mpm/crack/crack_cells.hpp"
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/crack/periodic_reach.hpp"
@@ -86,6 +89,19 @@ std::vector<TipPhysics> tip_physics(const RunParts& parts) {
   return list;
 }
 
+/// The thin tools that divide bodies which cracks divide.
+ToolCuts tool_cuts(const RunParts& parts) {
+  std::vector<ToolCuts::Cut> cuts;
+  for (std::size_t t = 0; parts.sides != nullptr && t < parts.sides->tools().size(); ++t) {
+    ToolCuts::Cut cut{&parts.sides->tools()[t], {}};
+    for (const ParticleSet& set : parts.sets) {
+      cut.divides.push_back(set.chooses && divides(cut.tool->body().definition(), set.name) ? 1 : 0);
+    }
+    if (std::count(cut.divides.begin(), cut.divides.end(), 1) > 0) cuts.push_back(std::move(cut));
+  }
+  return {std::move(cuts), static_cast<int>(parts.definition.cracks.list.size())};
+}
+
 void check(const RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   const auto refuse = [](const std::string& what) { throw DefinitionError("cracks: " + what); };
@@ -128,8 +144,9 @@ void add_cracks(RunParts& parts) {
                                         parts.choice->grid(), parts.sets);
   };
   made->jumps = std::make_unique<FieldJumps>(parts.fields, asked.length);
-  made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, *made->jumps, parts.map,
-                                               grouping, definition.method.shape, parts.threads, parts.ranks);
+  made->chosen =
+      std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, *made->jumps, parts.map, grouping,
+                                    definition.method.shape, tool_cuts(parts), parts.threads, parts.ranks);
   // Contours and what lies ahead of tips, with the nodes around them.
   const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);
   made->reach = reach;
@@ -139,7 +156,8 @@ void add_cracks(RunParts& parts) {
         [chosen = made->chosen.get(), reach](const std::array<int, 3>& block) { return chosen->near(block, reach); });
   }
   if (parts.stress_average != nullptr) {
-    parts.stress_average->divide(*parts.choice, std::make_unique<CrackCells>(made->cracks, parts.sets, parts.layout()));
+    parts.stress_average->divide(
+        *parts.choice, std::make_unique<CrackCells>(made->cracks, made->chosen->cuts(), parts.sets, parts.layout()));
   }
   made->counts = is_first(parts.ranks);
   made->motion = std::make_unique<CrackMotion>(made->cracks, *made->chosen, parts.fields, asked.move, asked.prevent);

@@ -1,6 +1,8 @@
-// Thin tools of a definition: what becomes of the material on their two sides.
+// Thin tools of a definition: what becomes of the material on their two sides. Mass centres of nodes, which tools
+// beside cracks ask for too, are found here for both.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "mpm/contact/tool_sides.hpp"
@@ -38,12 +40,38 @@ void look_at(const RigidBody& body, RunParts& parts, ToolSides* sides) {
   }
 }
 
+/// Tools that material beside cracks meets at nodes, by the normal at a node's mass centre.
+std::vector<const RigidBody*> met_beside_cracks(const RunParts& parts) {
+  std::vector<const RigidBody*> met;
+  const SimulationDefinition& definition = parts.definition;
+  if (parts.choice == nullptr || definition.contact.method != ContactMethod::nodes) return met;
+  for (const RigidBody& body : parts.bodies) {
+    if (!body.definition().particles) met.push_back(&body);
+  }
+  return met;
+}
+
+/// Finds mass centres of nodes near thin tools and near these.
+void add_mass_places(RunParts& parts, const ToolSides* sides, std::vector<const RigidBody*> tools) {
+  const double cell = parts.layout().smallest_cell();
+  const auto near = [sides, tools = std::move(tools), cell](const Vec3& middle, double radius) {
+    return (sides != nullptr && sides->near(middle, radius)) ||
+           std::any_of(tools.begin(), tools.end(), [&](const RigidBody* tool) {
+             return Box{middle, middle}.grown(radius + tool->reach() * cell).intersects(tool->world_bounds());
+           });
+  };
+  const ShapeKind shape = parts.definition.method.shape;
+  parts.modules.add(make_mass_places(parts.make_transfer(shape), parts.fields, parts.sets, near));
+}
+
 }  // namespace
 
 void add_tool_sides(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
+  const double cell = parts.layout().smallest_cell();
   ToolSides* sides = nullptr;
-  if (!parts.map.divisions().empty()) {
+  if (std::any_of(parts.bodies.begin(), parts.bodies.end(),
+                  [&](const RigidBody& body) { return has_sides(body.definition(), definition.geometry, cell); })) {
     sides = &parts.modules.add(std::make_unique<ToolSides>(parts.layout(), parts.map, parts.sets, parts.threads));
   }
   for (const RigidBody& body : parts.bodies) {
@@ -51,11 +79,10 @@ void add_tool_sides(RunParts& parts) {
       parts.warnings.push_back(std::move(doubt));
     look_at(body, parts, sides);
   }
-  if (sides == nullptr) return;
   parts.sides = sides;
-  parts.modules.add(std::make_unique<SideGlue>(*sides, parts.fields));
-  const auto near = [sides](const Vec3& middle, double radius) { return sides->near(middle, radius); };
-  parts.modules.add(make_mass_places(parts.make_transfer(definition.method.shape), parts.fields, parts.sets, near));
+  if (!parts.map.divisions().empty()) parts.modules.add(std::make_unique<SideGlue>(*sides, parts.fields));
+  std::vector<const RigidBody*> tools = met_beside_cracks(parts);
+  if (sides != nullptr || !tools.empty()) add_mass_places(parts, sides, std::move(tools));
 }
 
 }  // namespace mpm

@@ -12,15 +12,27 @@
 namespace mpm {
 namespace {
 
-// Number of fields across cracks of each body: one where one crack divides it; three where several may meet at a node.
-std::vector<int> fields_across_cracks(const SimulationDefinition& definition) {
+bool divided_by(const RigidBodyDefinition& tool, const std::string& body, const SimulationDefinition& definition) {
+  return divides(tool, body) && has_sides(tool, definition.geometry, definition.smallest_cell());
+}
+
+int tools_that_divide(const std::string& body, const SimulationDefinition& definition) {
+  const auto& tools = definition.rigid_bodies;
+  return static_cast<int>(std::count_if(
+      tools.begin(), tools.end(), [&](const RigidBodyDefinition& tool) { return divided_by(tool, body, definition); }));
+}
+
+// Number of fields across cracks of each body, and across thin tools where a crack divides it: one where one of them
+// does; three where several may meet at a node.
+std::vector<int> fields_across(const SimulationDefinition& definition) {
   std::vector<int> across;
   for (const DeformableBody& body : definition.bodies) {
     const auto& cracks = definition.cracks.list;
     const auto count = std::count_if(cracks.begin(), cracks.end(), [&](const CrackDefinition& crack) {
       return definition.cracks.divides(crack, body.name);
     });
-    across.push_back(count == 0 ? 0 : count == 1 ? 1 : 3);
+    const auto all = count == 0 ? 0 : count + tools_that_divide(body.name, definition);
+    across.push_back(all == 0 ? 0 : all == 1 ? 1 : 3);
   }
   return across;
 }
@@ -35,26 +47,20 @@ GridLayout layout_of(const SimulationDefinition& definition) {
   return layout;
 }
 
-// A tool may come to any body, so a thin one divides all of them unless it names those that it divides.
+// A tool may come to any body, so a thin one divides all of them unless it names those that it divides. Where cracks
+// divide a body its particles choose their fields, and a tool divides it by that choice (crack/tool_cuts.hpp).
 FieldMap field_map(const SimulationDefinition& definition) {
-  const double cell = layout_of(definition).smallest_cell();
-  const auto divided_by = [&](const RigidBodyDefinition& tool, const std::string& body) {
-    const auto& named = tool.divides;
-    const bool meant = named.empty() || std::find(named.begin(), named.end(), body) != named.end();
-    return meant && has_sides(tool, definition.geometry, cell);
-  };
+  const std::vector<int> across = fields_across(definition);
   std::vector<int> groups;
   std::vector<bool> divided;
   for (const DeformableBody& body : definition.bodies) {
     if (body.field < 0) {
       throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
     }
+    divided.push_back(across[groups.size()] == 0 && tools_that_divide(body.name, definition) > 0);
     groups.push_back(body.field);
-    const auto& tools = definition.rigid_bodies;
-    divided.push_back(std::any_of(tools.begin(), tools.end(),
-                                  [&](const RigidBodyDefinition& tool) { return divided_by(tool, body.name); }));
   }
-  return {groups, divided, fields_across_cracks(definition)};
+  return {groups, divided, across};
 }
 
 std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields) {

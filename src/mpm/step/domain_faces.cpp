@@ -25,9 +25,6 @@ void keep_within_reach(PlacedDomain& domain, const GridLayout& layout) {
   }
 }
 
-/// Block along an axis that a node is in, and its place there; nodes may be as far as a block before the first.
-int block_along(int node) { return (node + kBlockEdge) / kBlockEdge - 1; }
-
 }  // namespace
 
 PlacedDomain DomainFaces::domain_of(const ParticleSet& set, int p) const {
@@ -84,7 +81,7 @@ FaceParts DomainFaces::parts_of_box(int set, int particle, DomainFace face) cons
 
 namespace {
 
-/// `find(numbers of a node)`: its field and place there, block -1 if it is not there or carries nothing.
+/// `find(numbers of a node)`: a FieldNode, block -1 if it is not there or carries nothing.
 template <class Find>
 NodeShares shares_around(const GridLayout& layout, const PlacedDomain::Vector& at, Find&& find) {
   NodeShares found;
@@ -107,10 +104,10 @@ NodeShares shares_around(const GridLayout& layout, const PlacedDomain::Vector& a
       hat *= up == 1 ? beyond[k] : 1.0 - beyond[k];
     }
     if (!(hat > 0.0)) continue;
-    const std::pair<int, NodeRef> own = find(node);
-    if (own.second.block < 0) continue;
-    found.field[found.count] = own.first;
-    found.node[found.count] = own.second;
+    const FieldNode own = find(node);
+    if (own.ref.block < 0) continue;
+    found.field[found.count] = own.field;
+    found.node[found.count] = own.ref;
     found.share[found.count++] = hat;
     sum += hat;
   }
@@ -118,37 +115,24 @@ NodeShares shares_around(const GridLayout& layout, const PlacedDomain::Vector& a
   return found;
 }
 
-/// Finds a node by its numbers; block -1 if the field does not have it or it carries nothing.
-NodeRef find_carrying(const Grid& grid, const std::array<int, 3>& node) {
-  std::array<int, 3> block{};
-  int local = 0;
-  for (int k = 0; k < grid.layout.dim(); ++k) {
-    block[k] = block_along(node[k]);
-    local = local * kBlockEdge + node[k] - block[k] * kBlockEdge;
-  }
-  const NodeRef ref{grid.blocks.find(grid.layout.key(block)), local};
-  return ref.block >= 0 && grid.carries(ref.block, local) ? ref : NodeRef{-1, 0};
-}
-
 }  // namespace
 
 NodeShares DomainFaces::shares(int set, int particle, const PlacedDomain::Vector& at) const {
   const ParticleSet& of = sets_[set];
-  if (!of.chooses || of.side[particle] == 0)
-    return node_shares(*fields_[of.field_of(particle)], at, of.field_of(particle));
+  if (!of.chooses || of.side[particle] == 0) {
+    return node_shares(MaterialNodes(fields_, of.field_of(particle)), at);
+  }
   const auto first = of.begin.begin() + settings_.choice->grid().first_owner;
   const auto next = std::upper_bound(first, of.begin.end(), static_cast<std::uint32_t>(particle));
   const int patch = static_cast<int>(next - first) - 1;
   return shares_around(layout(), at, [&](const std::array<int, 3>& node) {
     const int field = settings_.choice->chosen_at(patch, node);
-    return std::pair{field, field < 0 ? NodeRef{-1, 0} : find_carrying(*fields_[field], node)};
+    return field < 0 ? FieldNode{} : MaterialNodes(fields_, field).find(node);
   });
 }
 
-NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at, int field) {
-  return shares_around(grid.layout, at, [&](const std::array<int, 3>& node) {
-    return std::pair{field, find_carrying(grid, node)};
-  });
+NodeShares node_shares(const MaterialNodes& material, const PlacedDomain::Vector& at) {
+  return shares_around(material.grid().layout, at, [&](const std::array<int, 3>& node) { return material.find(node); });
 }
 
 void find_places(const ParticleSet& set, std::vector<int>& place_of) {

@@ -74,25 +74,26 @@ NodeRef SurfaceHeat::find(int field, std::uint64_t node) const {
   return ref.block >= 0 && grid.carries(ref.block, ref.node) ? ref : NodeRef{-1, 0};
 }
 
-void SurfaceHeat::touch(const RigidBody& tool, const Grid& grid, const Vec3& place, double area, double friction,
-                        double dt) {
+void SurfaceHeat::touch(const RigidBody& tool, const MaterialNodes& material, const Vec3& place, double area,
+                        double friction, double dt) {
   const int heated = tool_of(&tool);
   if (heated < 0 && friction == 0.0) return;
+  const GridLayout& layout = material.grid().layout;
   PlacedDomain::Vector at{};
-  for (int k = 0; k < grid.layout.dim(); ++k) at[k] = place[grid.layout.axis(k)];
-  const NodeShares found = node_shares(grid, at);
+  for (int k = 0; k < layout.dim(); ++k) at[k] = place[layout.axis(k)];
+  const NodeShares found = node_shares(material, at);
   const int first = static_cast<int>(shares_.size());
   for (int i = 0; i < found.count; ++i) {
-    shares_.push_back({HeldNodes::id(grid.blocks.key(found.node[i].block), found.node[i].node), found.share[i]});
+    const std::uint64_t block = fields_[found.field[i]]->blocks.key(found.node[i].block);
+    shares_.push_back({found.field[i], HeldNodes::id(block, found.node[i].node), found.share[i]});
   }
-  touches_.push_back({heated, field_of(grid), first, found.count, area, friction, dt, true});
+  touches_.push_back({heated, first, found.count, area, friction, dt, true});
 }
 
 void SurfaceHeat::rub(const RigidBody* tool, const Grid& grid, std::uint64_t node, double friction, double dt) {
   if (friction == 0.0) return;
-  touches_.push_back(
-      {tool_of(tool), field_of(grid), static_cast<int>(shares_.size()), 1, 0.0, friction, dt, tool != nullptr});
-  shares_.push_back({node, 1.0});
+  touches_.push_back({tool_of(tool), static_cast<int>(shares_.size()), 1, 0.0, friction, dt, tool != nullptr});
+  shares_.push_back({field_of(grid), node, 1.0});
 }
 
 void SurfaceHeat::meet(const Grid& one, const Grid& other, std::uint64_t node, double area, double friction,
@@ -103,7 +104,7 @@ void SurfaceHeat::meet(const Grid& one, const Grid& other, std::uint64_t node, d
 double SurfaceHeat::whole_of(const Touch& touch) const {
   double whole = 0.0;
   for (int i = touch.first; i < touch.first + touch.count; ++i) {
-    if (find(touch.field, shares_[i].node).block >= 0) whole += shares_[i].share;
+    if (find(shares_[i]).block >= 0) whole += shares_[i].share;
   }
   return whole;
 }
@@ -119,8 +120,8 @@ void SurfaceHeat::load() {
       const ToolHeat& tool = tools_[touch.tool];
       const double all = tool.definition.conductance * touch.area * touch.dt / whole;
       for (int i = touch.first; i < touch.first + touch.count; ++i) {
-        const NodeRef ref = find(touch.field, shares_[i].node);
-        if (ref.block >= 0) visit(touch.field, ref, all * shares_[i].share, touch.tool);
+        const NodeRef ref = find(shares_[i]);
+        if (ref.block >= 0) visit(shares_[i].field, ref, all * shares_[i].share, touch.tool);
       }
     }
     for (const Meeting& meeting : meetings_) {
@@ -146,7 +147,6 @@ double SurfaceHeat::constants(const std::vector<NodalQuantity>& nodes, int field
 }
 
 void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, double start, double dt) {
-  NodalQuantity& of = nodes[touch.field];
   const double whole = whole_of(touch);
   const bool keeps = ranks_ == nullptr || touch.by_tool;  // true for what all ranks keep and give alike
   if (!(whole > 0.0)) {
@@ -165,11 +165,12 @@ void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, do
   }
   double conducted = 0.0;
   for (int i = touch.first; i < touch.first + touch.count; ++i) {
-    const NodeRef ref = find(touch.field, shares_[i].node);
+    const NodeRef ref = find(shares_[i]);
     if (ref.block < 0) continue;
+    NodalQuantity& of = nodes[shares_[i].field];
     double heat = 0.0;
     if (touch.tool >= 0) {
-      heat = full * shares_[i].share * part_exchanged(constants(nodes, touch.field, ref) + tool_constants) *
+      heat = full * shares_[i].share * part_exchanged(constants(nodes, shares_[i].field, ref) + tool_constants) *
              (temperature - of.value.at(ref.block, 0, ref.node));
       conducted += heat;
     }
@@ -225,8 +226,9 @@ void SurfaceHeat::give(std::vector<NodalQuantity>& nodes, double start, double d
 bool SurfaceHeat::counts(const Touch& touch) const {
   if (ranks_ == nullptr) return true;
   if (touch.by_tool) return ranks_->first();
-  const NodeRef node = find(touch.field, shares_[touch.first].node);
-  return node.block >= 0 && counts(touch.field, node);
+  const Share& one = shares_[touch.first];
+  const NodeRef node = find(one);
+  return node.block >= 0 && counts(one.field, node);
 }
 
 double SurfaceHeat::waiting() const {
@@ -257,11 +259,11 @@ void SurfaceHeat::serialise(StateArchive& archive) {
     archive.value("from_friction", tools_[i].from_friction);
   }
   archive.rows("shares", shares_);
+  archive.column("shares/field", shares_, &Share::field);
   archive.column("shares/node", shares_, &Share::node);
   archive.column("shares/share", shares_, &Share::share);
   archive.rows("touches", touches_);
   archive.column("touches/tool", touches_, &Touch::tool);
-  archive.column("touches/field", touches_, &Touch::field);
   archive.column("touches/first", touches_, &Touch::first);
   archive.column("touches/count", touches_, &Touch::count);
   archive.column("touches/area", touches_, &Touch::area);

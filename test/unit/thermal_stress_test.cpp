@@ -181,10 +181,11 @@ grid: {cell: 0.1, min: [-0.3, -0.3, -0.3], max: [0.7, 0.7, 1.3]}
 bodies: [{name: bar, material: m, shape: {box: {min: [0, 0, 0], max: [0.4, 0.4, 1]}}}]
 )yaml",
                                    1.0);
-  EXPECT_LT(stress_of(solid, {"szz"}).mean_square, 0.0012);  // of 0.028 in a cell of this size
+  EXPECT_LT(stress_of(solid, {"szz"}).mean_square, 0.0012);  // 0.028 is what it was
 }
 
-// Who moves through cells while it grows feels each place of the gradient in turn; what was given keeps its strain.
+// A body that moves through cells while it grows feels each place of the gradient in turn; what was given keeps its
+// strain.
 TEST(ThermalStress, OfAFreeBarThatFliesIsNoLarger) {
   const Simulation run = at_rest(R"yaml(geometry: plane_stress
 grid: {cell: 0.05, min: [-0.3, -0.3], max: [2.5, 0.7]}

@@ -52,7 +52,7 @@ class ScalarTransfer {
   /// `to`[k] = d/dx_k of component k of `from`, which has as many as the grid has axes.
   virtual void slopes(int field, const NodalField& from, const Taken& to) = 0;
 
-  /// How far before a particle the place lies whose slope the gradient takes, along each axis [m]: `to`[k] = sum of
+  /// Distance from a particle to the place whose slope the gradient takes, along each axis [m]: `to`[k] = sum of
   /// G_ip (x_i^2 / 2) along k, less x_p. Half a cell's width at most, and 0 where G is exact for parabolas. For the
   /// particles of all fields.
   virtual void slope_lead(const Taken& to) = 0;

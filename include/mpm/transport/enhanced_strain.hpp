@@ -52,9 +52,10 @@ class EnhancedStrain {
   double book();
 
  private:
-  /// What a set remembers along each axis, from ParticleSet::kEnhanced on: strain that the next increment takes, strain
-  /// that has been given and not booked, the slope of the free strain that is left [1/m], the slope of the places of
-  /// masses, and the distance to the place of the slope [m]; and after these each quantity at the last look.
+  /// Numbers that a set remembers along each axis, from ParticleSet::kEnhanced on: strain that the next increment
+  /// takes, strain that has been given and not booked, the slope of the free strain that is left [1/m], the slope of
+  /// the places of masses, and the distance to the place of the slope [m]; and after these each quantity at the last
+  /// look.
   enum Kind { taken_next, given, slope_left, of_places, lead, kKinds };
 
   static std::size_t place(const ParticleSet& set, int kind_and_axis) {
@@ -84,7 +85,7 @@ class EnhancedStrain {
   int dim_;
   std::vector<const TransportedField*> expanding_;
   std::unique_ptr<ScalarTransfer> transfer_;
-  std::vector<NodalField> masses_, numbers_, places_;  ///< of each velocity field
+  std::vector<NodalField> masses_, numbers_, places_;  ///< numbers on the nodes of each velocity field
   bool masses_moved_ = true;
   int parts_given_ = 0;  ///< since the sync point
   /// Scratch of each set, along each axis: numbers to spread, and gradients.

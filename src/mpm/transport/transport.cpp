@@ -249,6 +249,7 @@ void Transport::serialise(StateArchive& archive) {
   archive.sum("expansion_begun", expansion_begun_);
   if (archive.reading()) begun_ = enhanced_ != nullptr;  // it looks, and finds what there is
   archive.value("expands_for", expands_for_);
+  if (enhanced_) archive.value("changed", changed_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const StateArchive::Group group(archive, traits_of(fields_[i]->quantity()).name);
     archive.value("waited", waited_[i]);

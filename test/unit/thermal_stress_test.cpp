@@ -31,8 +31,8 @@ std::vector<double> field_of(const Simulation& run, const char* name) {
   return values;
 }
 
-Simulation at_rest(const std::string& scene, double end) {
-  Simulation run(parse_scene(kMaterial + scene, "stress.yaml"), {1});
+Simulation at_rest(const std::string& scene, double end, const char* materials = kMaterial) {
+  Simulation run(parse_scene(materials + scene, "stress.yaml"), {1});
   while (static_cast<double>(run.time()) < 1e9 * end) run.advance();
   return run;
 }
@@ -143,58 +143,105 @@ Stress stress_of(const Simulation& run, const std::vector<const char*>& componen
 }
 
 // A free bar of 1 m by 0.4 m that is 100 K warmer at its end than at its start: it bends and stretches without stress,
-// whatever its law. Taken at different places, strain and free strain leave (lambda + 2 mu) alpha T' a quarter of a
-// cell: 1.4 % of E alpha dT at 20 cells. At the ends the free strain is taken from less than a neighbourhood.
+// whatever its law. Taken at different places, strain and free strain leave (3 lambda + 2 mu) alpha T' a quarter of a
+// cell in the stress along the bar, 1.4 % of E alpha dT at 20 cells, and mu alpha T' of it in the shear, 0.5 %. What is
+// left after two seconds is what its vibration has been damped to.
 TEST(ThermalStress, OfAFreeBarIsNextToNothing) {
   const auto bar = [](double cell, const char* shape) {
     return at_rest(fmt::format(R"yaml(geometry: plane_stress
 grid: {{cell: {}, min: [-0.3, -0.3], max: [1.3, 0.7]}}
-time: {{end: 1, sync: 0.02}}
+time: {{end: 2, sync: 0.02}}
 method: {{shape: {}, damping: 60}}
 bodies: [{{name: bar, material: m, shape: {{box: {{min: [0, 0], max: [1, 0.4]}}}}}}]
 transport: {{temperature: {{reference: 300, initial: "300+100*x", compression_heat: off}}}}
 )yaml",
                                cell, shape),
-                   1.0);
+                   2.0);
   };
   for (const char* shape : {"ugimp", "ugimp_stretch", "cpdi"}) {
-    const Stress coarse = stress_of(bar(0.05, shape), {"sxx"}), fine = stress_of(bar(0.025, shape), {"sxx"});
-    EXPECT_LT(coarse.largest, 0.0012) << shape;
-    EXPECT_LT(coarse.mean_square, 0.0003) << shape;
-    EXPECT_GT(order(coarse.mean_square, fine.mean_square), 1.6) << shape;
+    for (const double cell : {0.1, 0.05}) {
+      EXPECT_LT(stress_of(bar(cell, shape), {"sxx", "szz", "sxz"}).largest, 3e-5) << shape << cell;
+    }
   }
 }
 
 TEST(ThermalStress, OfAFreeBarIsNextToNothingAboutAnAxisAndInSpace) {
   const char* const rest =
       "transport: {temperature: {reference: 300, initial: \"300+100*z\", compression_heat: off}}\n"
-      "time: {end: 1, sync: 0.02}\nmethod: {damping: 60}\n";
+      "time: {end: 2, sync: 0.02}\nmethod: {damping: 60}\n";
   const Simulation round = at_rest(std::string(rest) + R"yaml(geometry: axisymmetric
 grid: {cell: 0.05, min: [0, -0.3], max: [0.7, 1.3]}
 bodies: [{name: bar, material: m, shape: {box: {min: [0, 0], max: [0.4, 1]}}}]
 )yaml",
-                                   1.0);
-  EXPECT_LT(stress_of(round, {"sxx", "syy", "szz"}).largest, 0.004);
-  EXPECT_LT(stress_of(round, {"sxx", "syy", "szz"}).mean_square, 0.0005);
+                                   2.0);
+  EXPECT_LT(stress_of(round, {"sxx", "syy", "szz"}).largest, 1e-4);
+  EXPECT_LT(stress_of(round, {"sxz"}).largest, 0.0015);  // beside the axis, where functions have the weight r
   const Simulation solid = at_rest(std::string(rest) + R"yaml(geometry: solid
 grid: {cell: 0.1, min: [-0.3, -0.3, -0.3], max: [0.7, 0.7, 1.3]}
 bodies: [{name: bar, material: m, shape: {box: {min: [0, 0, 0], max: [0.4, 0.4, 1]}}}]
 )yaml",
-                                   1.0);
-  EXPECT_LT(stress_of(solid, {"szz"}).mean_square, 0.0012);  // 0.028 is what it was
+                                   2.0);
+  EXPECT_LT(stress_of(solid, {"sxx", "syy", "szz", "sxy", "sxz", "syz"}).largest, 1e-4);
 }
 
 // A body that moves through cells while it grows feels each place of the gradient in turn; what was given keeps its
-// strain.
-TEST(ThermalStress, OfAFreeBarThatFliesIsNoLarger) {
-  const Simulation run = at_rest(R"yaml(geometry: plane_stress
-grid: {cell: 0.05, min: [-0.3, -0.3], max: [2.5, 0.7]}
-time: {end: 1, sync: 0.5}
-bodies: [{name: bar, material: m, initial: {velocity: [1, 0]}, shape: {box: {min: [0, 0], max: [1, 0.4]}}}]
+// strain. Two and a half cells, as over whole ones the strain of a cell errs to no side; given all at the place of the
+// beginning it would be 0.014.
+TEST(ThermalStress, OfAFreeBarThatFliesIsThatOfOneAtRest) {
+  const auto bar = [](double speed) {
+    return at_rest(fmt::format(R"yaml(geometry: plane_stress
+grid: {{cell: 0.05, min: [-0.3, -0.3], max: [1.5, 0.7]}}
+time: {{end: 0.5, sync: 0.5}}
+bodies: [{{name: bar, material: m, initial: {{velocity: [{}, 0]}}, shape: {{box: {{min: [0, 0], max: [1, 0.4]}}}}}}]
+transport: {{temperature: {{reference: 300, initial: "300+100*x", compression_heat: off}}}}
+)yaml",
+                               speed),
+                   0.5);
+  };
+  const double flying = stress_of(bar(0.25), {"sxx"}).mean_square, resting = stress_of(bar(0.0), {"sxx"}).mean_square;
+  EXPECT_LT(flying, 0.01);  // waves of the growth, mostly
+  EXPECT_NEAR(flying, resting, 0.003);
+}
+
+// Two bonded blocks, both warm, of which the other one does not expand: even warmth has no slope, whoever expands by
+// it.
+TEST(ThermalStress, OfABondedBlockKnowsOnlyTheTemperature) {
+  const auto pair = [](const char* other) {
+    return at_rest(fmt::format(R"yaml(materials:
+  - {{name: m, density: 1000, law: linear_elastic, young: 1e6, poisson: 0.3, heat_capacity: 1000, thermal_expansion: 1e-8}}
+  - {{name: n, density: 1000, law: linear_elastic, young: 1e6, poisson: 0.3, heat_capacity: 1000{}}}
+geometry: plane_stress
+grid: {{cell: 0.05, min: [-0.3, -0.3], max: [1.3, 0.7]}}
+time: {{end: 0.5, sync: 0.02}}
+method: {{damping: 60}}
+bodies:
+  - {{name: warm, material: m, shape: {{box: {{min: [0, 0], max: [0.5, 0.4]}}}}}}
+  - {{name: other, material: n, shape: {{box: {{min: [0.5, 0], max: [1, 0.4]}}}}}}
+transport: {{temperature: {{reference: 300, initial: 400, compression_heat: off}}}}
+)yaml",
+                               other),
+                   0.5, "");
+  };
+  const std::vector<double> without = field_of(pair(""), "sxx"),
+                            next = field_of(pair(", thermal_expansion: 1e-20"), "sxx");
+  for (std::size_t p = 0; p < next.size(); ++p) EXPECT_NEAR(without[p], next[p], 1e-9 * kYoung * kGrowth);
+}
+
+// A growth of a fifth at the warm end, on a line: the slope is that of the logarithm, where the body is at the time.
+TEST(ThermalStress, OfALargeGrowthIsAFifthOfWhatItWas) {
+  const Simulation run = at_rest(
+      R"yaml(materials: [{name: m, density: 1000, law: neo_hookean, young: 1e6, poisson: 0, heat_capacity: 1000, thermal_expansion: 2e-3}]
+geometry: line
+grid: {cell: 0.05, min: [-0.3], max: [1.6]}
+time: {end: 2, sync: 0.2}
+method: {damping: 60}
+bodies: [{name: bar, material: m, shape: {box: {min: [0], max: [1]}}}]
 transport: {temperature: {reference: 300, initial: "300+100*x", compression_heat: off}}
 )yaml",
-                                 1.0);
-  EXPECT_LT(stress_of(run, {"sxx"}).mean_square, 0.005);
+      2.0, "");
+  const double before = 0.2 * 0.05 / 4.0;  // E alpha T' times a quarter of a cell, over E
+  const double now = stress_of(run, {"sxx"}).mean_square * kGrowth;
+  EXPECT_LT(now, 0.3 * before);
 }
 
 // A bar between smooth walls in plane strain, 100 K x^2 warmer: the stress along x is one number, by the length that

@@ -89,8 +89,10 @@ struct SetView {
   /// when the stress was last computed (free_strain.hpp). Null where no material expands.
   const double* free_strain;
   double* strained_free;
-  /// Strain along each axis that the next increment gets beside grad v dt (transport/enhanced_strain.hpp); then 0.
-  double* enhanced[3];
+  /// Slope of the free strain along each axis that the next increment is enhanced by [1/m], then 0; and the distance to
+  /// the place whose slope the gradient takes [m] (transport/enhanced_strain.hpp). Null where there is none.
+  double* free_slope[3];
+  const double* slope_lead[3];
   const void* law;  ///< the law; null where no pass asks for it
   const LawKernels<T>* law_kernels;
   const ShapeKernels<T>* shape;  ///< null for points of domains

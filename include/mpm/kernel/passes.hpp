@@ -85,7 +85,7 @@ class Passes {
       in.each_chunk([&](const ParticleChunk& chunk) {
         in.fill(Beside::gradient);
         in.gradient(velocity, gradients);
-        if (set.free_strain != nullptr) enhance(set, chunk, settings.dt, gradients);
+        if (set.free_slope[0] != nullptr) enhance(set, chunk, settings.dt, gradients);
         if (settings.dilatation != nullptr) {
           alignas(64) T mean[1][kBuffer];
           in.gather(dilatation, mean);
@@ -102,20 +102,26 @@ class Passes {
     return failure;
   }
 
-  static void enhance(const Set& set, const ParticleChunk& chunk, double dt, Gradients& gradients) {
+  // Where e is the free strain, d u_i / d x_j is off by d e / d x_i times the distance to the place of the slope along
+  // j, one way along the axis itself and the other way across it.
+  [[gnu::noinline]] static void enhance(const Set& set, const ParticleChunk& chunk, double dt, Gradients& gradients) {
     const W per_time(1.0 / dt);
-    for (int k = 0; k < kDim; ++k) {
-      T* along = gradients.l[k * kDim + k];
-      for (int q = 0; q < chunk.count; q += W::kLanes) {
-        const W strain(W::B::place(set.enhanced[k] + chunk.first + q, chunk.count - q, 0.0, 1.0, 0.0));
-        (W::load(along + q) + strain * per_time).store(along + q);
+    for (int q = 0; q < chunk.count; q += W::kLanes) {
+      const int p = chunk.first + q, lanes = chunk.count - q;
+      for (int i = 0; i < kDim; ++i) {
+        const W slope = W(W::B::place(set.free_slope[i] + p, lanes, 0.0, 1.0, 0.0)) * per_time;
+        for (int j = 0; j < kDim; ++j) {
+          const W off = slope * W(W::B::place(set.slope_lead[j] + p, lanes, 0.0, 1.0, 0.0));
+          T* rate = gradients.l[i * kDim + j] + q;
+          (i == j ? W::load(rate) - off : W::load(rate) + off).store(rate);
+        }
       }
     }
   }
   static void note_free_strain(const Set& set, const ParticleChunk& chunk) {
-    for (int p = chunk.first; p < chunk.first + chunk.count; ++p) {
-      set.strained_free[p] = set.free_strain[p];
-      for (int k = 0; k < kDim; ++k) set.enhanced[k][p] = 0.0;
+    for (int p = chunk.first; p < chunk.first + chunk.count; ++p) set.strained_free[p] = set.free_strain[p];
+    for (int k = 0; k < kDim && set.free_slope[0] != nullptr; ++k) {
+      for (int p = chunk.first; p < chunk.first + chunk.count; ++p) set.free_slope[k][p] = 0.0;
     }
   }
 

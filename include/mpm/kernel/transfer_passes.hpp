@@ -1,14 +1,12 @@
 // Passes that move any numbers between the particles of a block and its nodes, over an interpolator (interpolator.hpp):
-// gather, gradient, spread, spread_gradient and diffuse of kernels.hpp. They know neither mass, unless asked, nor law
-// of a body.
+// gather, gradient, slopes, slope_lead, spread, spread_gradient and diffuse of kernels.hpp. They know neither mass,
+// unless asked, nor law of a body.
 #pragma once
 
 #include "mpm/kernel/interpolator.hpp"
 #include "mpm/kernel/weights.hpp"
 
 namespace mpm {
-
-using mpm_kernel::kTileMargin;
 
 template <class Interpolator>
 class TransferPasses {
@@ -182,7 +180,7 @@ class TransferPasses {
       blocks[b] = b;
       for (int n = 0; n < kNodes; ++n) {
         for (int k = kDim - 1, block = b, node = n; k >= 0; --k, block /= 3, node /= 4) {
-          const double arm = (4 * (block % 3) + node % 4 - kTileMargin - kMiddle) / grid.inverse_cell[k];
+          const double arm = (4 * (block % 3) + node % 4 - mpm_kernel::kTileMargin - kMiddle) / grid.inverse_cell[k];
           parabolas[(b * kDim + k) * kNodes + n] = 0.5 * arm * arm;
         }
       }

@@ -67,10 +67,11 @@ struct ParticleSet {
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
   std::vector<NamedScalar> brought;          ///< by physics beside the mechanics
   /// Place in `brought` of the strain that brings no stress; the next one is what it was when the stress was last
-  /// computed (kernel/free_strain.hpp), and kEnhanced places on is what the next increment gets beside it along each
-  /// axis (transport/enhanced_strain.hpp). Negative where nothing expands.
+  /// computed (kernel/free_strain.hpp). Negative where nothing expands.
   int free_strain = -1;
-  static constexpr int kEnhanced = 3;
+  /// Place in `brought` of the slope of the free strain that the next increment is enhanced by, along each axis, and
+  /// after it of the distances to the places of slopes (transport/enhanced_strain.hpp). Negative where there is none.
+  int enhanced_strain = -1;
   PaddedArray<std::uint8_t> side;  ///< side of a thin tool, for a divided body: 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last one awake.

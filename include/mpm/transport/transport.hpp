@@ -15,6 +15,7 @@
 // the water is one of those that a block asleep remembers.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,8 +41,8 @@ class Transport final : public Stage, public RestPartner {
   void add(std::unique_ptr<PoreWater> water) { water_ = std::move(water); }
   /// Takes over nothing: the temperature owns it.
   void set_surface_heat(SurfaceHeat* heat) { surface_ = heat; }
-  /// Makes the sets whose materials expand remember their free strain. `transfer`: of the run's sets and fields.
-  void prepare_expansion(std::unique_ptr<ScalarTransfer> transfer);
+  /// Makes the sets whose materials expand remember their free strain. `make_transfer`: of the run's sets and fields.
+  void prepare_expansion(const std::function<std::unique_ptr<ScalarTransfer>()>& make_transfer);
 
   bool stirs(const RestingBlock& block, const RestTimes& times) override;
   bool at_once() const override { return false; }
@@ -50,9 +51,11 @@ class Transport final : public Stage, public RestPartner {
   }
   void falls_asleep(const RestingBlock& block) override {
     for (const auto& field : fields_) field->falls_asleep(block);
+    if (enhanced_) enhanced_->masses_changed();
   }
   void wakes(const RestingBlock& block) override {
     for (const auto& field : fields_) field->wakes(block);
+    if (enhanced_) enhanced_->masses_changed();
   }
 
   std::string name() const override { return "transport"; }
@@ -98,8 +101,9 @@ class Transport final : public Stage, public RestPartner {
   /// Work of expansion against the stress, the mean of that before and after it [J]: what the stress has taken, and the
   /// first half of what it has not.
   double expansion_work_ = 0.0, expansion_begun_ = 0.0;
-  bool begun_ = false;                        ///< the stress has not taken it everywhere
-  std::unique_ptr<EnhancedStrain> enhanced_;  ///< null where nothing expands
+  bool begun_ = false;  ///< the stress has not taken it everywhere
+  bool expands_ = false;
+  std::unique_ptr<EnhancedStrain> enhanced_;  ///< null where nothing expands, or the shape function needs none
   bool changed_ = true;                       ///< some quantity was updated since its last look
   double expands_for_ = 0.0;                  ///< time in which the free strain reaches that of the last update [s]
   ImpulseAccount hoop_;

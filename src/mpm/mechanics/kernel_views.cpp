@@ -47,9 +47,10 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const mpm_kernel::KernelTable<T
   if (set.free_strain >= 0) {
     view.free_strain = set.brought[set.free_strain].values.data();
     view.strained_free = set.brought[set.free_strain + 1].values.data();
-    for (std::size_t k = 0; k < set.x.size(); ++k) {
-      view.enhanced[k] = set.brought[set.free_strain + ParticleSet::kEnhanced + k].values.data();
-    }
+  }
+  for (std::size_t k = 0; k < set.x.size() && set.enhanced_strain >= 0; ++k) {
+    view.free_slope[k] = set.brought[set.enhanced_strain + k].values.data();
+    view.slope_lead[k] = set.brought[set.enhanced_strain + set.x.size() + k].values.data();
   }
   view.shape = kernels.shape;
   return view;

@@ -187,7 +187,7 @@ void add_transport(RunParts& parts) {
     if (definition.sleep) let_sleep(*field, parts);
     transport->add(std::move(field));
   }
-  transport->prepare_expansion(parts.make_transfer(shape));
+  transport->prepare_expansion([&] { return parts.make_transfer(shape); });
   parts.rest_partners.push_back(&parts.modules.add(std::move(transport)));
 }
 

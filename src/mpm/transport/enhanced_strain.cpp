@@ -16,14 +16,14 @@ namespace {
 /// lies at one place there is no slope of anything.
 constexpr double kLeastSlope = 0.25;
 
-/// Number of parts for which the distances to slopes are found once: in so many steps a particle moves by a small part
-/// of a cell.
+/// Number of parts for which the distances to slopes are found once. What is slow beside its waves moves in so many
+/// steps by a small part of a cell.
 constexpr int kGoodFor = 4;
 
-/// The part of a stress along a world axis.
-template <class Symmetric>
-double along(const Symmetric& tau, int axis) {
-  return axis == 0 ? tau.xx : axis == 1 ? tau.yy : tau.zz;
+template <class T>
+double component(const Symmetric3<T>& of, int a, int b) {
+  if (a == b) return a == 0 ? of.xx : a == 1 ? of.yy : of.zz;
+  return a + b == 1 ? of.xy : a + b == 2 ? of.xz : of.yz;
 }
 
 }  // namespace
@@ -44,15 +44,17 @@ EnhancedStrain::EnhancedStrain(const TransportParts& parts, std::vector<const Tr
     places_.emplace_back(dim_, layout.nodes_per_block());
   }
   for (ParticleSet& set : parts_.sets) {
-    if (set.free_strain < 0) continue;
-    constexpr std::pair<const char*, const char*> kNumbers[kKinds] = {{"enhanced_strain_", "1"},
-                                                                      {"enhanced_strain_given_", "1"},
+    constexpr std::pair<const char*, const char*> kNumbers[kKinds] = {{"free_strain_slope_", "1/m"},
+                                                                      {"slope_lead_", "m"},
+                                                                      {"free_strain_slope_given_", "1/m"},
                                                                       {"free_strain_slope_left_", "1/m"},
-                                                                      {"slope_of_places_", "1"},
-                                                                      {"slope_lead_", "m"}};
-    for (const auto& [name, unit] : kNumbers) {
-      for (int k = 0; k < dim_; ++k) set.bring(std::string(name) + "xyz"[layout.axis(k)], unit);
+                                                                      {"slope_of_places_", "1"}};
+    if (set.free_strain >= 0) set.enhanced_strain = static_cast<int>(set.brought.size());
+    for (int n = 0; n < kKinds * dim_ && set.free_strain >= 0; ++n) {
+      const auto& [name, unit] = kNumbers[n / dim_];
+      set.bring(std::string(name) + "xyz"[layout.axis(n % dim_)], unit);
     }
+    seen_.push_back(set.brought.size());
     for (const TransportedField* field : expanding_) {
       const TransportedTraits& of = traits_of(field->quantity());
       auto& values = set.brought[set.bring(std::string("expanded_by_") + of.name, of.unit)].values;
@@ -118,10 +120,10 @@ void EnhancedStrain::add_slopes(std::size_t quantity) {
   each_group([&](ParticleSet& set, std::size_t s, int first, int last) {
     const double* values = field.values(static_cast<int>(s)).data();
     double* changes = gradients_[s][0].data();
-    double* before = set.free_strain < 0 ? nullptr : seen(set, quantity).data();
+    double* before = set.brought[seen_[s] + quantity].values.data();
     for (int p = first; p < last; ++p) {
-      changes[p] = before == nullptr ? 0.0 : values[p] - before[p];
-      if (before != nullptr) before[p] = values[p];
+      changes[p] = values[p] - before[p];
+      before[p] = values[p];
     }
   });
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
@@ -136,12 +138,14 @@ void EnhancedStrain::add_slopes(std::size_t quantity) {
   }
   each_group([&](ParticleSet& set, std::size_t s, int first, int last) {
     const double by_one = field.material(static_cast<int>(s)).expansion;
+    const double* values = field.values(static_cast<int>(s)).data();
     for (int k = 0; k < dim_ && by_one != 0.0; ++k) {
       const double *gradient = gradients_[s][k].data(), *places = numbers(set, of_places, k);
       double* slope = numbers(set, slope_left, k);
       for (int p = first; p < last; ++p) {
         const double over = layout.periodic(k) ? 1.0 : places[p];
-        if (over > kLeastSlope) slope[p] += by_one * gradient[p] / over;
+        const double stretch = 1.0 + by_one * (values[p] - field.definition().reference);
+        if (over > kLeastSlope) slope[p] += by_one * gradient[p] / (over * stretch);
       }
     }
   });
@@ -175,21 +179,29 @@ void EnhancedStrain::find_leads() {
   transfer_->slope_lead(taken_);
 }
 
-template <class Strain>
-double EnhancedStrain::half_work(Strain&& strain) {
+template <class Slopes>
+double EnhancedStrain::half_work(Slopes&& slopes) {
   const GridLayout& layout = parts_.fields.front()->layout;
   double work = 0.0;
   with_geometry(parts_.geometry, [&](auto kind) {
     for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
       ParticleSet& set = parts_.sets[s];
       if (set.free_strain < 0) continue;
+      const auto slope_of = slopes(set);
+      std::array<const double*, 3> leads{};
+      for (int k = 0; k < dim_; ++k) leads[k] = numbers(set, lead, k);
       const auto add = [&](int first, int last, double& sum) {
-        for (int k = 0; k < dim_; ++k) {
-          const int axis = layout.axis(k);
-          const auto of = strain(static_cast<int>(s), k);
-          for (int p = first; p < last; ++p) {
-            sum += 0.5 * set.mass_of(p) * along(kind.load_symmetric(set.tau, p), axis) * of(p);
+        for (int p = first; p < last; ++p) {
+          const auto tau = full(kind.load_symmetric(set.tau, p));
+          double by_mass = 0.0;
+          for (int i = 0; i < dim_; ++i) {
+            const double slope = slope_of(p, i);
+            for (int j = 0; j < dim_; ++j) {
+              const double off = slope * leads[j][p];
+              by_mass += component(tau, layout.axis(i), layout.axis(j)) * (i == j ? -off : off);
+            }
           }
+          sum += 0.5 * set.mass_of(p) * by_mass;
         }
       };
       work = sum_groups("transport: enhanced strain", set, parts_.threads, sums_, work, add);
@@ -200,26 +212,28 @@ double EnhancedStrain::half_work(Strain&& strain) {
 
 double EnhancedStrain::give(double part) {
   if (parts_given_++ % kGoodFor == 0) find_leads();
-  return half_work([&](int s, int k) {
-    ParticleSet& set = parts_.sets[s];
-    return [part, slope = numbers(set, slope_left, k), next = numbers(set, taken_next, k),
-            unbooked = numbers(set, given, k), ahead = numbers(set, lead, k)](int p) {
-      const double now = part * slope[p], strain = -now * ahead[p];
-      slope[p] -= now;
-      next[p] += strain;
-      unbooked[p] += strain;
-      return strain;
+  return half_work([&](ParticleSet& set) {
+    std::array<double*, 3> slopes{}, next{}, unbooked{};
+    for (int k = 0; k < dim_; ++k) {
+      slopes[k] = numbers(set, slope_left, k);
+      next[k] = numbers(set, slope_next, k);
+      unbooked[k] = numbers(set, given_slope, k);
+    }
+    return [=](int p, int i) {
+      const double now = part * slopes[i][p];
+      slopes[i][p] -= now;
+      next[i][p] += now;
+      unbooked[i][p] += now;
+      return now;
     };
   });
 }
 
 double EnhancedStrain::book() {
-  return half_work([&](int s, int k) {
-    return [unbooked = numbers(parts_.sets[s], given, k)](int p) {
-      const double strain = unbooked[p];
-      unbooked[p] = 0.0;
-      return strain;
-    };
+  return half_work([&](ParticleSet& set) {
+    std::array<double*, 3> unbooked{};
+    for (int k = 0; k < dim_; ++k) unbooked[k] = numbers(set, given_slope, k);
+    return [=](int p, int i) { return std::exchange(unbooked[i][p], 0.0); };
   });
 }
 

@@ -35,7 +35,7 @@ void Transport::add(std::unique_ptr<TransportedField> field) {
   waited_.push_back(0.0);
 }
 
-void Transport::prepare_expansion(std::unique_ptr<ScalarTransfer> transfer) {
+void Transport::prepare_expansion(const std::function<std::unique_ptr<ScalarTransfer>()>& make_transfer) {
   std::vector<const TransportedField*> expanding;
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     bool grows = false;
@@ -52,7 +52,9 @@ void Transport::prepare_expansion(std::unique_ptr<ScalarTransfer> transfer) {
   }
   if (expanding.empty()) return;
   expands_for_ = seconds_of(sync_);  // time for a start that is not free of strain
-  enhanced_ = std::make_unique<EnhancedStrain>(parts_, std::move(expanding), std::move(transfer));
+  expands_ = true;
+  if (traits_of(parts_.shape).spline()) return;
+  enhanced_ = std::make_unique<EnhancedStrain>(parts_, std::move(expanding), make_transfer());
 }
 
 template <class Term>
@@ -87,7 +89,7 @@ void Transport::expand(double part) {
       });
     });
   }
-  expansion_begun_ += enhanced_->give(part);
+  if (enhanced_) expansion_begun_ += enhanced_->give(part);
   begun_ = true;
 }
 
@@ -114,7 +116,8 @@ void Transport::finish_expansion() {
   }
   begun_ = left;
   if (begun_) return;
-  expansion_work_ += expansion_begun_ + enhanced_->book();
+  expansion_work_ += expansion_begun_;
+  if (enhanced_) expansion_work_ += enhanced_->book();
   expansion_begun_ = 0.0;
 }
 
@@ -150,8 +153,8 @@ void Transport::grid_advanced(StepContext& context) {
     waited_[i] = 0.0;
     changed_ = true;
   }
-  if (!enhanced_ || !(expands_for_ > 0.0)) return;
-  if (changed_) enhanced_->look();
+  if (!expands_ || !(expands_for_ > 0.0)) return;
+  if (enhanced_ && changed_) enhanced_->look();
   changed_ = false;
   const bool arrives = expands_for_ < 1.5 * context.dt;
   expand(arrives ? 1.0 : context.dt / expands_for_);
@@ -172,7 +175,7 @@ void Transport::energies(EnergyReport& report) const {
     if (field->gives_to_laws()) report.add("heat", NamedEnergy::Kind::work, field->given_to_laws());
   }
   if (water_) report.add("pore_pressure", NamedEnergy::Kind::work, water_->work());
-  if (enhanced_) report.add("expansion", NamedEnergy::Kind::work, expansion_work_);
+  if (expands_) report.add("expansion", NamedEnergy::Kind::work, expansion_work_);
 }
 
 double Transport::budget_error(const TransportedField& field) const {
@@ -247,7 +250,7 @@ void Transport::serialise(StateArchive& archive) {
   archive.value("sync_end", sync_end_);
   archive.sum("expansion_work", expansion_work_);
   archive.sum("expansion_begun", expansion_begun_);
-  if (archive.reading()) begun_ = enhanced_ != nullptr;  // it looks, and finds what there is
+  if (archive.reading()) begun_ = expands_;  // it looks, and finds what there is
   archive.value("expands_for", expands_for_);
   if (enhanced_) archive.value("changed", changed_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {

@@ -11,7 +11,7 @@
 
 namespace mpm_gpu {
 
-/// What this library cannot do, in one line with a remedy.
+/// Refusal or failure of this library, in one line with a remedy.
 class GpuError : public mpm::Error {
  public:
   using mpm::Error::Error;
@@ -46,10 +46,10 @@ class CellTable {
   GridView grid_;
   int dim_, around_;
   std::uint64_t per_block_, block_keys_;
-  std::int64_t offset_[27];  ///< of the keys of blocks around one
+  std::int64_t offset_[27];  ///< differences of the keys of blocks around one
   long particles_ = 0, owners_room_ = 0, room_ = 0, blocks_ = 0;
   int sets_ = 0;
-  Buffer<std::uint64_t> key_, other_key_;  ///< of particles, then of blocks around owners
+  Buffer<std::uint64_t> key_, other_key_;  ///< keys of particles, then of blocks around owners
   Buffer<std::uint32_t> order_, other_order_, flag_, node_;
   Buffer<std::uint64_t> cell_key_, owner_, block_;
   Buffer<std::uint32_t> begin_, end_;

@@ -13,7 +13,7 @@
 
 namespace mpm_gpu {
 
-/// What of a scene does not run there, by the scene's words; empty where all does.
+/// The first feature of a scene that does not run there, by the scene's words; empty where all does.
 std::string refused(const mpm::SimulationDefinition& definition);
 
 /// A run of this library that begins with the particles of a simulation, and its laws.
@@ -30,7 +30,7 @@ class DeviceRun {
   void write_to(std::vector<mpm::ParticleSet>& sets) const;
 
  private:
-  std::vector<mpm::Law> laws_;  ///< of each set; the solver points to them
+  std::vector<mpm::Law> laws_;  ///< laws of the sets, to which the solver points
   Solver<T> solver_;
 };
 

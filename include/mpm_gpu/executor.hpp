@@ -1,4 +1,4 @@
-// Who runs the kernels of a step. A kernel is a function of an index, kernel(i), that holds views of plain arrays by
+// Executor of the kernels of a step. A kernel is a function of an index, kernel(i), that holds views of plain arrays by
 // value and writes places of its own; how indices are handed out must not matter to it. That is what a graphics
 // processor asks for, with a thread an index. This executor runs them in loops on the processor, so that the logic, the
 // order of sums and the agreement with the solver are checked without a card: forwards, backwards, shuffled, on several

@@ -41,7 +41,7 @@ struct ParticleStore {
   }
 };
 
-/// What acted on the material since the start [N s], along the grid's axes.
+/// Impulses on the material since the start [N s], along the grid's axes.
 struct Impulses {
   double walls[3] = {}, gravity[3] = {};
 };

@@ -1,4 +1,4 @@
-// What kernels are given: plain numbers and pointers into memory that outlives a step.
+// Arguments of kernels: plain numbers and pointers into memory that outlives a step.
 //
 // Particles are arrays of components, sorted by set, then by the cell around their nearest node; T, double or float, is
 // the precision of all but places, which are double. Nodes lie in blocks of 4 along each axis, of which there are those
@@ -22,7 +22,7 @@ enum class Face : int { open, slip, fixed };
 struct GridView {
   double origin[3], inverse_cell[3];
   int last_node[3];                  ///< on the upper face
-  long blocks_along[3];              ///< of the box of all blocks that may be needed
+  long blocks_along[3];              ///< edges of the box of all blocks that may be needed
   Face faces[6];                     ///< 2 * axis, + 1 for the upper one
   double low_wall[3], high_wall[3];  ///< node numbers of the faces that are walls
   int wall_layers;                   ///< layers of nodes beyond a wall that it holds, too
@@ -37,7 +37,7 @@ inline double in_cells(const GridView& grid, int k, double x) { return (x - grid
 /// One body.
 struct SetView {
   std::uint32_t first, count;    ///< its particles
-  double mass;                   ///< of a particle [kg]
+  double mass;                   ///< mass of a particle [kg]
   double half[3];                ///< half of a particle's box [cells]
   double lowest[3], highest[3];  ///< limits of a centre [cells]
 };
@@ -50,31 +50,32 @@ struct ParticleView {
   T* f[9];       ///< deformation gradient
   T* tau[6];     ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
-  T* gradient[9];       ///< of the velocity, in this step [1/s]
+  T* gradient[9];       ///< gradient of the velocity, in this step [1/s]
   std::uint32_t* node;  ///< number of the nearest node in the table
-  std::uint8_t* fault;  ///< of this step: bits of Fault
+  std::uint8_t* fault;  ///< bits of Fault, in this step
 };
 
-/// What a kernel finds of a particle.
+/// Findings of a kernel about a particle.
 enum Fault : std::uint8_t { kLeftCell = 1, kOutside = 2, kInverted = 4 };
 
 struct NodeView {
-  long blocks, nodes;              ///< of all blocks
-  const std::uint64_t* key;        ///< of each block, ascending
-  const std::int32_t* neighbours;  ///< of each block the 3^dim around it, the last axis fastest; -1: there is none
-  const std::uint32_t* begin;      ///< [set][node]: first of the particles that are nearest to it
-  const std::uint32_t* end;        ///< and one past the last
-  double* mass;                    ///< [kg]
-  double* momentum;                ///< [N s]
-  double* velocity;                ///< [m/s]
-  double* acceleration;            ///< [m/s^2]
-  double* held;                    ///< impulse that walls give in a step [N s]
+  long blocks, nodes;        ///< numbers of both
+  const std::uint64_t* key;  ///< keys of the blocks, ascending
+  const std::int32_t*
+      neighbours;              ///< numbers of the 3^dim blocks around each, the last axis fastest; -1: there is none
+  const std::uint32_t* begin;  ///< [set][node]: first of the particles that are nearest to it
+  const std::uint32_t* end;    ///< and one past the last
+  double* mass;                ///< [kg]
+  double* momentum;            ///< [N s]
+  double* velocity;            ///< [m/s]
+  double* acceleration;        ///< [m/s^2]
+  double* held;                ///< impulse that walls give in a step [N s]
 };
 
 struct StepSettings {
   double dt;    ///< [s]
   double flip;  ///< fraction of FLIP; the rest is PIC
-  int terms;    ///< of exp(grad v dt)
+  int terms;    ///< number of terms of exp(grad v dt)
 };
 
 template <class T>

@@ -77,7 +77,7 @@ inline mpm::SimulationDefinition metal(mpm::Precision precision) {
   law.elasticity = {70e9, 0.33};
   law.yield_stress = 1e8;
   d.materials = {{"metal", 2700.0, law}};
-  d.bodies = {block(d, "metal", {3.0, 3.0, 0.0}, {6.0, 6.0, 3.0}, {5.0, 0.0, -80.0})};
+  d.bodies = {block(d, "metal", {3.0, 3.0, 0.3}, {6.0, 6.0, 3.3}, {5.0, 0.0, -80.0})};
   return d;
 }
 

@@ -53,14 +53,21 @@ double total_mass(const std::vector<ParticleSet>& sets) {
 
 double norm(const double* v) { return std::hypot(v[0], v[1], v[2]); }
 
+double most_of(const mpm::ParticleScalar& scalar) {
+  double most = 0.0;
+  for (std::size_t p = 0; p < scalar.size(); ++p) most = std::max(most, scalar[p]);
+  return most;
+}
+
 /// Momentum exchanged with walls and by gravity [N s].
 double exchanged(const mpm_gpu::Impulses& impulses) { return norm(impulses.walls) + norm(impulses.gravity); }
 
 template <class T>
 constexpr mpm::Precision kPrecision = sizeof(T) == 8 ? mpm::Precision::float64 : mpm::Precision::float32;
 
-// Issue of agreement: `bound` times the momentum exchanged, of all particles together; of each particle the speed that
-// this gives to all the mass, and the way at that speed.
+// Agreement to `bound` times the momentum exchanged, for all particles together; for each particle to the way at the
+// speed that this gives to all the mass and, in double, to that speed. In single precision round-off of stiff stresses
+// is larger for a particle's velocity: the solver's own, against its run in double, is the bound.
 template <class T>
 void expect_agreement(SceneOf scene, double bound) {
   const SimulationDefinition d = scene(kPrecision<T>);
@@ -77,10 +84,18 @@ void expect_agreement(SceneOf scene, double bound) {
   const double impulse = exchanged(run.solver().impulses()), speed = impulse / total_mass(sets);
   EXPECT_GT(speed, 0.0);
   EXPECT_LT(found.momentum, bound * impulse);
-  EXPECT_LT(found.velocity, bound * speed);
   EXPECT_LT(found.place, bound * speed * kSteps * dt);
-  std::printf("sorts %ld, of exchange: momentum %.2g, velocity %.2g, place %.2g\n", run.solver().sorts(),
-              found.momentum / impulse, found.velocity / speed, found.place / (speed * kSteps * dt));
+  EXPECT_GT(run.solver().sorts(), 1);  // particles have changed cells
+  if (sizeof(T) == 8) {
+    EXPECT_LT(found.velocity, bound * speed);
+  } else {
+    mpm::SimulationProbe exact(scene(mpm::Precision::float64));
+    for (int i = 0; i < kSteps; ++i) exact.step(dt);
+    EXPECT_LT(found.velocity, 2.0 * difference(exact.sets(), solver.sets()).velocity);
+  }
+  for (const ParticleSet& set : sets) {
+    for (const mpm::ParticleScalar& history : set.history) EXPECT_GT(most_of(history), 0.0);  // it has yielded
+  }
 }
 
 TEST(GpuStep, ElasticBlockAgreesInDouble) { expect_agreement<double>(gpu_scenes::falling_block, 1e-10); }
@@ -107,7 +122,6 @@ void expect_closed(SceneOf scene, double bound) {
   for (int k = 0; k < 3; ++k) rest[k] = after[k] - before[k] - all.walls[k] - all.gravity[k];
   EXPECT_GT(norm(all.walls), 0.1 * norm(all.gravity));  // the wall is met
   EXPECT_LT(norm(rest), bound * exchanged(all));
-  std::printf("rest %.2g\n", norm(rest) / exchanged(all));
 }
 
 TEST(GpuStep, MomentumCloses) {

@@ -9,3 +9,11 @@ mpm_compile_for(mpm_gpu_lane lane)
 target_link_libraries(mpm_gpu_lane PRIVATE Eigen3::Eigen)
 add_library(mpm_gpu STATIC EXCLUDE_FROM_ALL ${gpu_sources} $<TARGET_OBJECTS:mpm_gpu_lane>)
 target_link_libraries(mpm_gpu PUBLIC mpm PRIVATE mpm_options fmt::fmt OpenMP::OpenMP_CXX)
+
+# What a device would run is compiled for one, by clang alone, where there is any.
+find_program(MPM_CLANG NAMES clang++ clang++-16 clang++-15 clang++-14 DOC "Compiler of device code, for a test")
+if(MPM_CLANG)
+  add_test(NAME gpu.device_code COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/check_device_code ${MPM_CLANG} ${PROJECT_SOURCE_DIR}
+    $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+  set_tests_properties(gpu.device_code PROPERTIES LABELS gpu TIMEOUT 120 COST 8)
+endif()

@@ -9,7 +9,6 @@
 // `#pragma clang force_cuda_host_device begin` and `end`, so that no function needs a mark of its own.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -24,6 +23,9 @@ struct Backend {
   using Integers = Bits;
   using Mask = bool;
 
+  // Square roots by the compiler: those of the standard library are functions of the host.
+  static double root(double x) { return __builtin_sqrt(x); }
+  static float root(float x) { return __builtin_sqrtf(x); }
   /// Position of the particle, in double precision, less `origin`, times `scale`, less `shift`.
   static T place(const double* x, int, double origin, double scale, double shift) {
     return static_cast<T>((*x - origin) * scale - shift);
@@ -93,10 +95,10 @@ struct Wide {
   friend Mask equal(Wide a, Wide b) { return {a.v == b.v}; }
 
   friend Wide select(Mask which, Wide a, Wide b) { return which.m ? a : b; }
-  friend Wide sqrt(Wide a) { return of(std::sqrt(a.v)); }
+  friend Wide sqrt(Wide a) { return of(B::root(a.v)); }
   friend Wide max(Wide a, Wide b) { return b.v < a.v ? a : b; }
   friend Wide min(Wide a, Wide b) { return a.v < b.v ? a : b; }
-  friend Wide abs(Wide a) { return of(std::fabs(a.v)); }
+  friend Wide abs(Wide a) { return from_integers(a.integers() & ~(Integers(1) << (8 * sizeof(T) - 1))); }
   friend T lane(Wide a, int) { return a.v; }
   friend void set_lane(Wide& a, int, T value) { a.v = value; }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "../../src/mpm/simulation/state.hpp"
 
@@ -30,6 +31,8 @@ class SimulationProbe {
   const Simulation& simulation() const { return simulation_; }
   /// Particles of the first body, in an order that a step may change; set.id identifies them.
   ParticleSet& set() { return state_.sets[0]; }
+  /// The same of all bodies.
+  std::vector<ParticleSet>& sets() { return state_.sets; }
   /// Sorts the particles after they were moved from outside.
   void sort() { state_.sort(time_); }
   /// Pose and motion of a rigid body.

@@ -81,6 +81,17 @@ TEST(Layers, LibraryIncludesNoRosHeader) {
   for (const auto& include : includes) EXPECT_FALSE(std::regex_match(include.header, ros)) << place(include);
 }
 
+// Steps for a graphics processor are a library of their own, of which the product has no trace.
+TEST(Layers, NothingIncludesStepsForAGraphicsProcessor) {
+  for (const char* library : {"mpm", "mpm_ros", "mpm_ranks", "mpm_robots"}) {
+    for (const auto& include : includes_of(library))
+      EXPECT_NE(include.header.rfind("mpm_gpu/", 0), 0U) << place(include);
+  }
+  const auto own = includes_of("mpm_gpu");
+  ASSERT_FALSE(own.empty());
+  for (const auto& include : own) EXPECT_NE(include.header.rfind("mpm_ros/", 0), 0U) << place(include);
+}
+
 // So that every loop has a name in a profile, and how loops are shared out can change in one place.
 TEST(Layers, ThreadsAreStartedInOneFile) {
   for (const char* root : {"include", "src"}) {

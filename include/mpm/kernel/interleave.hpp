@@ -21,18 +21,25 @@ struct AlternatePairs {
 template <class T>
 void interleave(T* to, Wide<T> a0, Wide<T> a1, Wide<T> a2, Wide<T> a3) {
   constexpr int N = Wide<T>::kLanes;
-  const Wide<T> low01 = shuffle<Alternate<N, false>>(a0, a1), high01 = shuffle<Alternate<N, true>>(a0, a1);
-  const Wide<T> low23 = shuffle<Alternate<N, false>>(a2, a3), high23 = shuffle<Alternate<N, true>>(a2, a3);
-  if constexpr (N == 2) {
-    low01.store(to);
-    low23.store(to + N);
-    high01.store(to + 2 * N);
-    high23.store(to + 3 * N);
+  if constexpr (N == 1) {
+    a0.store(to);
+    a1.store(to + 1);
+    a2.store(to + 2);
+    a3.store(to + 3);
   } else {
-    shuffle<AlternatePairs<N, false>>(low01, low23).store(to);
-    shuffle<AlternatePairs<N, true>>(low01, low23).store(to + N);
-    shuffle<AlternatePairs<N, false>>(high01, high23).store(to + 2 * N);
-    shuffle<AlternatePairs<N, true>>(high01, high23).store(to + 3 * N);
+    const Wide<T> low01 = shuffle<Alternate<N, false>>(a0, a1), high01 = shuffle<Alternate<N, true>>(a0, a1);
+    const Wide<T> low23 = shuffle<Alternate<N, false>>(a2, a3), high23 = shuffle<Alternate<N, true>>(a2, a3);
+    if constexpr (N == 2) {
+      low01.store(to);
+      low23.store(to + N);
+      high01.store(to + 2 * N);
+      high23.store(to + 3 * N);
+    } else {
+      shuffle<AlternatePairs<N, false>>(low01, low23).store(to);
+      shuffle<AlternatePairs<N, true>>(low01, low23).store(to + N);
+      shuffle<AlternatePairs<N, false>>(high01, high23).store(to + 2 * N);
+      shuffle<AlternatePairs<N, true>>(high01, high23).store(to + 3 * N);
+    }
   }
 }
 

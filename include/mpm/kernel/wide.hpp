@@ -4,14 +4,17 @@
 // Compiler vectors (GCC, Clang) with a few intrinsics for what they do not have: masks, square roots, part loads.
 // doc/decisions.md says why this is no library. Laws and shape functions are written once for numbers and registers
 // (math/lanes.hpp). Whoever includes this file is compiled once an instruction set under another name of the namespace
-// (kernels.hpp): no inline function of one is linked into another.
+// (kernels.hpp): no inline function of one is linked into another. With MPM_ONE_LANE a register is a plain number
+// (lane.hpp).
 #pragma once
 
 #include <type_traits>
 #include <utility>
 
 #include "mpm/math/lanes.hpp"
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512BW__) && defined(__AVX512VL__)
+#if defined(MPM_ONE_LANE)
+#include "mpm/kernel/lane.hpp"
+#elif defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512BW__) && defined(__AVX512VL__)
 #include "mpm/kernel/backend_avx512.hpp"
 #elif defined(__AVX2__) && defined(__FMA__)
 #include "mpm/kernel/backend_avx2.hpp"
@@ -20,6 +23,8 @@
 #endif
 
 namespace mpm {
+
+#if !defined(MPM_ONE_LANE)
 
 /// A truth value a lane.
 template <class T>
@@ -87,6 +92,8 @@ struct Wide {
   friend T lane(Wide a, int i) { return a.v[i]; }
   friend void set_lane(Wide& a, int i, T value) { a.v[i] = value; }
 };
+
+#endif
 
 /// Lane l of the result is lane `at(l)` of a, of both when `at` reaches beyond a: at compile time.
 template <class At, class T, int... L>

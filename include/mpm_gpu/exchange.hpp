@@ -1,0 +1,37 @@
+// From a run of the solver to one of this library, and back: the same scene runs on both. What this library does not
+// have is refused by name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpm/definition/definition.hpp"
+#include "mpm/grid/grid_layout.hpp"
+#include "mpm/material/law.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm_gpu/solver.hpp"
+
+namespace mpm_gpu {
+
+/// The first feature of a scene that does not run there, by the scene's words; empty where all does.
+std::string refused(const mpm::SimulationDefinition& definition);
+
+/// A run of this library that begins with the particles of a simulation, and its laws.
+template <class T>
+class DeviceRun {
+ public:
+  /// `sets`: of an assembled Simulation of this definition, of precision T; every set has the name of its body.
+  /// @throws GpuError for what is refused
+  DeviceRun(const mpm::SimulationDefinition& definition, const std::vector<mpm::ParticleSet>& sets,
+            Executor executor = Executor());
+
+  Solver<T>& solver() { return solver_; }
+  /// Writes the particles' numbers back, each to where its id lies. They have moved: the simulation has to sort them.
+  void write_to(std::vector<mpm::ParticleSet>& sets) const;
+
+ private:
+  std::vector<mpm::Law> laws_;  ///< laws of the sets, to which the solver points
+  Solver<T> solver_;
+};
+
+}  // namespace mpm_gpu

@@ -1,0 +1,96 @@
+// The kernels of nodes: mass and momentum before the strain, force and the update of momentum after it. Sums are in
+// double, as the solver's grid is, of terms in the precision of the run. For code of one lane alone.
+// Source: Nairn, GIMP notes (2.8), (1.26), (2.14).
+#pragma once
+
+#include "mpm/kernel/stress.hpp"
+#include "mpm_gpu/stencil.hpp"
+
+namespace mpm_gpu {
+
+/// Axes along which walls hold a node, as bits.
+template <int Dim>
+unsigned held_axes(const GridView& grid, const int* number) {
+  unsigned held = 0;
+  for (int face = 0; face < 2 * Dim; ++face) {
+    const int axis = face / 2, beyond = face % 2 == 1 ? number[axis] - grid.last_node[axis] : -number[axis];
+    if (grid.faces[face] == Face::open || beyond < 0 || beyond > grid.wall_layers) continue;
+    held |= grid.faces[face] == Face::fixed ? (1U << Dim) - 1U : 1U << axis;
+  }
+  return held;
+}
+
+template <class T, class Geometry, template <class> class ShapeClass>
+struct MomentumKernel {
+  static constexpr int kDim = Geometry::kDim;
+  StepView<T> step;
+
+  void operator()(long node) const {
+    using W = mpm::Wide<T>;
+    int number[3];
+    number_along<T, kDim>(step, node, number);
+    double mass = 0.0, momentum[kDim] = {};
+    each_particle_of<T, kDim, ShapeClass>(
+        step, node, number, [&](const SetView& set, long p, const Stencil<T, kDim, ShapeClass>& stencil, const int* n) {
+          const W part = W(set.mass) * stencil.value(n);
+          mass += part.v;
+          for (int c = 0; c < kDim; ++c) momentum[c] += (part * W::load(step.particles.v[c] + p)).v;
+        });
+    const NodeView& to = step.nodes;
+    const bool carries = mass > step.grid.least_mass;
+    const unsigned held = held_axes<kDim>(step.grid, number);
+    to.mass[node] = mass;
+    for (int c = 0; c < kDim; ++c) {
+      to.momentum[c * to.nodes + node] = momentum[c];
+      to.velocity[c * to.nodes + node] = carries && (held >> c & 1U) == 0 ? momentum[c] / mass : 0.0;
+    }
+  }
+};
+
+template <class T, class Geometry, template <class> class ShapeClass>
+struct ForceKernel {
+  static constexpr int kDim = Geometry::kDim;
+  StepView<T> step;
+
+  void operator()(long node) const {
+    using W = mpm::Wide<T>;
+    const NodeView& to = step.nodes;
+    int number[3];
+    number_along<T, kDim>(step, node, number);
+    const double mass = to.mass[node], dt = step.settings.dt;
+    double force[kDim] = {};
+    if (mass > step.grid.least_mass) {
+      each_particle_of<T, kDim, ShapeClass>(
+          step, node, number,
+          [&](const SetView& set, long p, const Stencil<T, kDim, ShapeClass>& stencil, const int* n) {
+            const auto stress =
+                Geometry::load_symmetric(mpm::WideReader<T>{step.particles.tau, 1}, static_cast<int>(p));
+            W sum[kDim] = {};
+            for (int k = 0; k < kDim; ++k) {
+              W column[kDim];
+              Geometry::column(stress, k, column);
+              const W slope = W(-set.mass) * stencil.gradient(n, k);
+              for (int c = 0; c < kDim; ++c) sum[c] += column[c] * slope;
+            }
+            for (int c = 0; c < kDim; ++c) force[c] += sum[c].v;
+          });
+    }
+    const bool carries = mass > step.grid.least_mass;
+    const unsigned held = held_axes<kDim>(step.grid, number);
+    for (int c = 0; c < kDim; ++c) {
+      const long at = c * to.nodes + node;
+      double acceleration = carries ? force[c] / mass + step.grid.gravity[c] : 0.0;
+      double velocity = carries ? to.momentum[at] / mass + acceleration * dt : 0.0, given = 0.0;
+      if ((held >> c & 1U) != 0) {
+        given = -mass * velocity;
+        acceleration -= velocity / dt;
+        velocity = 0.0;
+      }
+      to.velocity[at] = velocity;
+      to.acceleration[at] = acceleration;
+      to.held[at] = given;
+    }
+  }
+};
+
+}  // namespace mpm_gpu

@@ -1,0 +1,84 @@
+// The kernels of particles beside the law's: the velocity gradient before it, and the motion at the end of a step, by
+// the solver's own advance of a particle (kernel/advance.hpp). For code of one lane alone.
+#pragma once
+
+#include "mpm/kernel/advance.hpp"
+#include "mpm_gpu/stencil.hpp"
+
+namespace mpm_gpu {
+
+/// The particles of a set as the solver's headers see them, for what runs there.
+template <class T>
+mpm_kernel::SetView<T> solver_view(const ParticleView<T>& particles, const SetView& set, int dim) {
+  mpm_kernel::SetView<T> view{};
+  view.mass = set.mass;
+  for (int k = 0; k < dim; ++k) {
+    view.x[k] = view.next_x[k] = particles.x[k];
+    view.v[k] = particles.v[k];
+  }
+  for (int c = 0; c < 9; ++c) view.f[c] = particles.f[c];
+  for (int c = 0; c < 6; ++c) view.tau[c] = particles.tau[c];
+  for (int h = 0; h < kMostHistory; ++h) view.history[h] = particles.history[h];
+  return view;
+}
+
+template <class T, int Dim, template <class> class ShapeClass>
+struct GradientKernel {
+  StepView<T> step;
+  SetView set;
+
+  void operator()(long i) const {
+    using W = mpm::Wide<T>;
+    const long p = set.first + i;
+    const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
+    W l[Dim][Dim] = {};
+    each_node_of<T, Dim>(step, p, [&](long node, const int* n) {
+      W slope[Dim];
+      for (int k = 0; k < Dim; ++k) slope[k] = stencil.gradient(n, k);
+      for (int c = 0; c < Dim; ++c) {
+        const W v(step.nodes.velocity[c * step.nodes.nodes + node]);
+        for (int k = 0; k < Dim; ++k) l[c][k] += v * slope[k];
+      }
+    });
+    for (int c = 0; c < Dim; ++c) {
+      for (int k = 0; k < Dim; ++k) l[c][k].store(step.particles.gradient[c * Dim + k] + p);
+    }
+  }
+};
+
+template <class T, int Dim, template <class> class ShapeClass>
+struct MoveKernel {
+  StepView<T> step;
+  SetView set;
+
+  void operator()(long i) const {
+    using W = mpm::Wide<T>;
+    const long p = set.first + i;
+    const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
+    W velocity[Dim] = {}, acceleration[Dim] = {};
+    each_node_of<T, Dim>(step, p, [&](long node, const int* n) {
+      const W value = stencil.value(n);
+      for (int c = 0; c < Dim; ++c) {
+        velocity[c] += value * W(step.nodes.velocity[c * step.nodes.nodes + node]);
+        acceleration[c] += value * W(step.nodes.acceleration[c * step.nodes.nodes + node]);
+      }
+    });
+    const mpm_kernel::SetView<T> view = solver_view(step.particles, set, Dim);
+    mpm_kernel::MoveSettings settings{step.settings.dt, step.settings.flip, false};
+    mpm::Advance<T, Dim, mpm_kernel::kIncrement, false, false> advance(view, settings);
+    std::uint8_t fault = step.particles.fault[p];
+    for (int c = 0; c < Dim; ++c) {
+      const int before = nearest_node(in_cells(step.grid, c, step.particles.x[c][p]));
+      advance.template particles<false, false>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
+      const double cells = in_cells(step.grid, c, step.particles.x[c][p]);
+      if (!(cells >= set.lowest[c] && cells <= set.highest[c])) {
+        fault |= kOutside;
+      } else if (nearest_node(cells) != before) {
+        fault |= kLeftCell;
+      }
+    }
+    step.particles.fault[p] = fault;
+  }
+};
+
+}  // namespace mpm_gpu

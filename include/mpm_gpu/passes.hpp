@@ -1,0 +1,36 @@
+// The border to the code of one lane: tables of passes, each a function that runs a kernel over all particles or nodes.
+// Behind it everything is compiled with MPM_ONE_LANE and the namespace mpm under another name (kernel/lane.hpp), as the
+// solver's kernels are once an instruction set; here are plain data and functions of the host.
+#pragma once
+
+#include <cstddef>
+
+#include "mpm_gpu/executor.hpp"
+#include "mpm_gpu/views.hpp"
+
+namespace mpm_gpu {
+
+enum class Shape : int { ugimp, bspline2 };
+
+/// The passes of a step (USF) in their order; the law's is between `gradient` and `force`.
+template <class T>
+struct Passes {
+  using Pass = void (*)(Executor&, const StepView<T>&);
+  Pass momentum;  ///< m, m v and v on nodes, v as walls let it be for the strain
+  Pass gradient;  ///< grad v of particles
+  Pass force;     ///< a, and v of the step's end, by force, gravity and walls
+  Pass move;      ///< v and x of particles; what has left its cell or the domain
+};
+
+/// Strain and stress of the particles of one set, by its law.
+template <class T>
+using LawPass = void (*)(Executor&, const StepView<T>&, int set, const void* law);
+
+/// In three dimensions or, with two axes, plane strain. The last argument tells the precision.
+const Passes<double>& passes(int dim, Shape shape, double);
+const Passes<float>& passes(int dim, Shape shape, float);
+/// By the index of the law in the list of laws (material/law.hpp); null for one that cannot run there.
+LawPass<double> law_pass(int dim, std::size_t law, double);
+LawPass<float> law_pass(int dim, std::size_t law, float);
+
+}  // namespace mpm_gpu

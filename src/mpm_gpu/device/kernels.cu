@@ -1,0 +1,80 @@
+// Device code of every kernel, made of the headers that the processor's executor runs. Nothing is launched from here
+// yet: clang turns this file into PTX without a card or CUDA's own headers (scripts/lib/check_device_code), which shows
+// that laws, shape functions and passes are what a device can do.
+//
+// Headers that the processor shares are between the pragmas, so that no function needs a mark; those of the standard
+// library come before them, because parts of it (threads, files) are for the host alone.
+// Marks that CUDA's headers define and clang's wrappers of the standard library want.
+#define __host__ __attribute__((host))
+#define __device__ __attribute__((device))
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#pragma clang force_cuda_host_device begin
+#include "mpm/shape/bspline.hpp"
+#include "mpm/shape/ugimp.hpp"
+#include "mpm_gpu/law_passes.hpp"
+#include "mpm_gpu/node_passes.hpp"
+#pragma clang force_cuda_host_device end
+
+namespace mpm_gpu {
+
+/// A thread an index.
+template <class Kernel>
+__attribute__((global)) void launch(Kernel kernel, long count) {
+  const long i =
+      static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + __nvvm_read_ptx_sreg_tid_x();
+  if (i < count) kernel(i);
+}
+
+template <class T, class Geometry, template <class> class ShapeClass>
+void each_pass() {
+  (void)&launch<MomentumKernel<T, Geometry, ShapeClass>>;
+  (void)&launch<GradientKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<ForceKernel<T, Geometry, ShapeClass>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass>>;
+}
+
+/// False for a user's law, which is code of the host, and for Mohr-Coulomb until its return on single numbers does
+/// without std::pair, std::swap and std::copy, which are not the device's.
+template <class OneLaw>
+constexpr bool kOnDevice = !std::is_same_v<OneLaw, mpm::UserLaw> && !std::is_same_v<OneLaw, mpm::MohrCoulomb>;
+
+template <class T, class Geometry, class OneLaw>
+void law() {
+  if constexpr (kOnDevice<OneLaw>) (void)&launch<LawKernel<T, Geometry, OneLaw>>;
+}
+template <class T, class Geometry, class... Laws>
+void each_law(const std::variant<Laws...>*) {
+  (law<T, Geometry, Laws>(), ...);
+}
+
+template <class T, class Geometry>
+void each_kernel() {
+  each_pass<T, Geometry, mpm::Ugimp>();
+  each_pass<T, Geometry, mpm::QuadraticSpline>();
+  each_law<T, Geometry>(static_cast<const mpm::Law*>(nullptr));
+}
+
+void all_kernels() {
+  each_kernel<double, mpm::Solid>();
+  each_kernel<float, mpm::Solid>();
+  each_kernel<double, mpm::PlaneStrain>();
+  each_kernel<float, mpm::PlaneStrain>();
+}
+
+}  // namespace mpm_gpu

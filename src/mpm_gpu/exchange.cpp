@@ -1,0 +1,226 @@
+#include "mpm_gpu/exchange.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "mpm/kernel/kernels.hpp"
+#include "mpm/rules/method_rules.hpp"
+
+namespace mpm_gpu {
+namespace {
+
+using mpm::ParticleSet;
+using mpm::SimulationDefinition;
+
+/// A feature, and whether a scene has it.
+struct Feature {
+  bool used;
+  const char* name;
+};
+
+bool any_shares_stress(const SimulationDefinition& d) {
+  return mpm::averages_stress(d.method, d.geometry) &&
+         std::any_of(d.bodies.begin(), d.bodies.end(), [&](const auto& body) { return shares_stress(d, body); });
+}
+bool any_wall(const SimulationDefinition& d, bool (*is)(mpm::WallKind)) {
+  return std::any_of(d.walls.begin(), d.walls.end(), [is](const auto& wall) { return is(wall.kind); });
+}
+bool any_user_law(const SimulationDefinition& d) {
+  return std::any_of(d.materials.begin(), d.materials.end(),
+                     [](const auto& m) { return std::holds_alternative<mpm::UserLawDefinition>(m.law); });
+}
+bool several_fields(const SimulationDefinition& d) {
+  return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
+}
+bool cut_places(const SimulationDefinition& d) {
+  return std::any_of(d.bodies.begin(), d.bodies.end(),
+                     [](const auto& body) { return !body.parts.empty() || !body.surfaces.empty(); });
+}
+
+GridView view_of(const SimulationDefinition& d) {
+  const mpm::GridLayout layout(dimensions(d.geometry), d.grid.cell, d.grid.min, d.grid.max);
+  GridView view{};
+  for (int k = 0; k < layout.dim(); ++k) {
+    view.origin[k] = layout.origin(k);
+    view.inverse_cell[k] = layout.inverse_cell(k);
+    view.last_node[k] = layout.last_node(k);
+    view.gravity[k] = d.gravity[layout.axis(k)];
+    // A block more to each side than the particles', who reach a node beyond the domain.
+    view.blocks_along[k] = (layout.last_node(k) + 1 + kBeside) / kEdge + 2;
+    for (int side = 0; side < 2; ++side) {
+      const mpm::WallKind kind = d.walls[2 * layout.axis(k) + side].kind;
+      view.faces[2 * k + side] = kind == mpm::WallKind::none    ? Face::open
+                                 : kind == mpm::WallKind::fixed ? Face::fixed
+                                                                : Face::slip;
+    }
+    view.low_wall[k] = view.faces[2 * k] != Face::open ? 0.0 : -mpm_kernel::kNoWall;
+    view.high_wall[k] = view.faces[2 * k + 1] != Face::open ? layout.last_node(k) : mpm_kernel::kNoWall;
+  }
+  view.wall_layers = mpm::traits_of(d.method.shape).wall_layers();
+  return view;
+}
+
+const mpm::DeformableBody& body_of(const SimulationDefinition& d, const std::string& name) {
+  const auto found = std::find_if(d.bodies.begin(), d.bodies.end(), [&](const auto& b) { return b.name == name; });
+  if (found == d.bodies.end()) throw GpuError("gpu: no body of the scene is called '" + name + "'");
+  return *found;
+}
+
+std::vector<mpm::Law> laws_of(const SimulationDefinition& d, const std::vector<ParticleSet>& sets) {
+  const std::string feature = refused(d);
+  if (!feature.empty()) {
+    throw GpuError("gpu: " + feature + " does not run there: run the scene on the processor");
+  }
+  std::vector<mpm::Law> laws;
+  for (const ParticleSet& set : sets) {
+    if (!set.masses.empty())
+      throw GpuError("gpu: body '" + set.name + "' has particles of unlike mass: they do not run there");
+  }
+  for (const ParticleSet& set : sets) laws.push_back(make_law(find_material(d, body_of(d, set.name))));
+  return laws;
+}
+
+template <class T>
+std::vector<typename Solver<T>::LawOfSet> pointers_to(const std::vector<mpm::Law>& laws) {
+  std::vector<typename Solver<T>::LawOfSet> result;
+  for (const mpm::Law& law : laws) {
+    const void* own = std::visit([](const auto& one) -> const void* { return &one; }, law);
+    result.push_back({law.index(), own});
+  }
+  return result;
+}
+
+std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
+  std::vector<SetView> views;
+  std::uint32_t first = 0;
+  for (const ParticleSet& set : sets) {
+    SetView view{};
+    view.first = first;
+    view.count = static_cast<std::uint32_t>(set.size());
+    view.mass = set.mass;
+    for (int k = 0; k < 3; ++k) {
+      view.half[k] = set.half[k];
+      view.lowest[k] = set.lowest[k];
+      view.highest[k] = set.highest[k];
+    }
+    first += view.count;
+    views.push_back(view);
+  }
+  return views;
+}
+
+double least_mass(const std::vector<ParticleSet>& sets) {
+  double least = sets.front().mass;
+  for (const ParticleSet& set : sets) least = std::min(least, set.mass);
+  return 1e-30 * least;  // as the solver has it
+}
+
+template <class T>
+ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
+  ParticleStore<T> store;
+  long count = 0, first = 0;
+  for (const ParticleSet& set : sets) count += set.size();
+  store.id.fit(count);
+  for (const ParticleSet& set : sets) {
+    const auto copy = [&](const auto& from, auto& to) {
+      for (std::size_t c = 0; c < from.size(); ++c) {
+        to[c].fit(count);
+        using Number = std::decay_t<decltype(to[c][0])>;
+        for (int p = 0; p < set.size(); ++p) to[c][first + p] = static_cast<Number>(from[c][p]);
+      }
+    };
+    copy(set.x, store.x);
+    copy(set.v, store.v);
+    copy(set.f, store.f);
+    copy(set.tau, store.tau);
+    copy(set.history, store.history);
+    for (int p = 0; p < set.size(); ++p) store.id[first + p] = set.id[p];
+    first += set.size();
+  }
+  return store;
+}
+
+}  // namespace
+
+std::string refused(const SimulationDefinition& d) {
+  const bool solid = d.geometry == mpm::GeometryKind::solid, plane = d.geometry == mpm::GeometryKind::plane_strain;
+  const mpm::Transfer& transfer = d.method.transfer;
+  const Feature features[] = {
+      {!solid && !plane, "this geometry (other than solid and plane_strain)"},
+      {d.method.shape != mpm::ShapeKind::ugimp && d.method.shape != mpm::ShapeKind::bspline2,
+       "method.shape_function other than ugimp and bspline2"},
+      {d.method.update != mpm::UpdateScheme::usf, "method.update other than usf"},
+      {transfer.kind != mpm::TransferKind::flip || transfer.mixes() || transfer.every != 1,
+       "method.transfer other than FLIP with a fraction of PIC"},
+      {d.method.average_dilatation, "method.average_dilatation"},
+      {any_shares_stress(d), "method.average_stress"},
+      {d.method.damping.any(), "method.damping"},
+      {any_user_law(d), "a law of a user's program"},
+      {several_fields(d), "contact of deformable bodies"},
+      {cut_places(d), "a body with a curved surface that cuts particles"},
+      {!d.rigid_bodies.empty() || !d.robots.empty(), "a rigid body or robot"},
+      {any_wall(d,
+                [](mpm::WallKind kind) {
+                  return kind == mpm::WallKind::frictional || kind == mpm::WallKind::absorbing ||
+                         kind == mpm::WallKind::periodic;
+                }),
+       "a wall other than fixed, slip and symmetry"},
+      {!d.conditions.empty(), "a prescribed velocity"},
+      {!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty(), "a load other than gravity"},
+      {d.sleep.has_value(), "sleep"},
+      {d.bed.has_value(), "a bed that follows bodies"},
+      {!d.transport.quantities.empty(), "transport"},
+      {d.cracks.any(), "a crack"},
+      {!d.volumes.empty(), "a volume that counts material"}};
+  for (const Feature& feature : features) {
+    if (feature.used) return feature.name;
+  }
+  return {};
+}
+
+template <class T>
+DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
+    : laws_(laws_of(definition, sets)),
+      solver_(
+          [&] {
+            GridView view = view_of(definition);
+            view.least_mass = least_mass(sets);
+            return view;
+          }(),
+          dimensions(definition.geometry),
+          definition.method.shape == mpm::ShapeKind::bspline2 ? Shape::bspline2 : Shape::ugimp,
+          definition.method.transfer.flip, definition.method.gradient_terms, views_of(sets), pointers_to<T>(laws_),
+          store_of<T>(sets), executor) {}
+
+template <class T>
+void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
+  const ParticleStore<T>& store = solver_.particles();
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    ParticleSet& set = sets[s];
+    const long first = solver_.sets()[s].first;
+    // Both lists in the order of ids.
+    std::vector<std::uint32_t> here(set.size()), there(set.size());
+    std::iota(here.begin(), here.end(), 0U);
+    std::iota(there.begin(), there.end(), static_cast<std::uint32_t>(first));
+    std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) { return set.id[a] < set.id[b]; });
+    std::sort(there.begin(), there.end(), [&](std::uint32_t a, std::uint32_t b) { return store.id[a] < store.id[b]; });
+    const auto copy = [&](const auto& from, auto& to) {
+      for (std::size_t c = 0; c < to.size(); ++c) {
+        for (std::size_t i = 0; i < here.size(); ++i) to[c].set(here[i], from[c][there[i]]);
+      }
+    };
+    for (std::size_t k = 0; k < set.x.size(); ++k) {
+      for (std::size_t i = 0; i < here.size(); ++i) set.x[k][here[i]] = store.x[k][there[i]];
+    }
+    copy(store.v, set.v);
+    copy(store.f, set.f);
+    copy(store.tau, set.tau);
+    copy(store.history, set.history);
+  }
+}
+
+template class DeviceRun<double>;
+template class DeviceRun<float>;
+
+}  // namespace mpm_gpu

@@ -1,0 +1,12 @@
+#include "mpm_gpu/law_passes.hpp"
+
+namespace mpm_gpu {
+
+LawPass<double> law_pass(int dim, std::size_t law, double) {
+  return dim == 3 ? LawPasses<double, mpm::Solid>::kPasses[law] : LawPasses<double, mpm::PlaneStrain>::kPasses[law];
+}
+LawPass<float> law_pass(int dim, std::size_t law, float) {
+  return dim == 3 ? LawPasses<float, mpm::Solid>::kPasses[law] : LawPasses<float, mpm::PlaneStrain>::kPasses[law];
+}
+
+}  // namespace mpm_gpu

@@ -1,0 +1,50 @@
+#include "mpm_gpu/passes.hpp"
+
+#include "mpm/shape/bspline.hpp"
+#include "mpm/shape/ugimp.hpp"
+#include "mpm_gpu/node_passes.hpp"
+#include "mpm_gpu/particle_passes.hpp"
+
+namespace mpm_gpu {
+namespace {
+
+template <class T, class Geometry, template <class> class ShapeClass>
+struct PassesOf {
+  static constexpr int kDim = Geometry::kDim;
+
+  static void momentum(Executor& run, const StepView<T>& step) {
+    run.for_each("gpu: momentum to the nodes", step.nodes.nodes, MomentumKernel<T, Geometry, ShapeClass>{step});
+  }
+  static void gradient(Executor& run, const StepView<T>& step) {
+    for (int s = 0; s < step.set_count; ++s) {
+      const SetView& set = step.sets[s];
+      run.for_each("gpu: velocity gradient", set.count, GradientKernel<T, kDim, ShapeClass>{step, set});
+    }
+  }
+  static void force(Executor& run, const StepView<T>& step) {
+    run.for_each("gpu: force and momentum of nodes", step.nodes.nodes, ForceKernel<T, Geometry, ShapeClass>{step});
+  }
+  static void move(Executor& run, const StepView<T>& step) {
+    for (int s = 0; s < step.set_count; ++s) {
+      const SetView& set = step.sets[s];
+      run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass>{step, set});
+    }
+  }
+  static constexpr Passes<T> kPasses = {&momentum, &gradient, &force, &move};
+};
+
+template <class T>
+const Passes<T>& choose(int dim, Shape shape) {
+  if (shape == Shape::bspline2) {
+    return dim == 3 ? PassesOf<T, mpm::Solid, mpm::QuadraticSpline>::kPasses
+                    : PassesOf<T, mpm::PlaneStrain, mpm::QuadraticSpline>::kPasses;
+  }
+  return dim == 3 ? PassesOf<T, mpm::Solid, mpm::Ugimp>::kPasses : PassesOf<T, mpm::PlaneStrain, mpm::Ugimp>::kPasses;
+}
+
+}  // namespace
+
+const Passes<double>& passes(int dim, Shape shape, double) { return choose<double>(dim, shape); }
+const Passes<float>& passes(int dim, Shape shape, float) { return choose<float>(dim, shape); }
+
+}  // namespace mpm_gpu

@@ -1,0 +1,218 @@
+#include "mpm_gpu/solver.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace mpm_gpu {
+
+template <class T>
+typename Solver<T>::OfNodes& Solver<T>::OfNodes::operator+=(const OfNodes& other) {
+  for (int k = 0; k < 3; ++k) held[k] += other.held[k];
+  mass += other.mass;
+  return *this;
+}
+template <class T>
+typename Solver<T>::OfParticles& Solver<T>::OfParticles::operator+=(const OfParticles& other) {
+  left = left || other.left;
+  outside = std::min(outside, other.outside);
+  inverted = std::min(inverted, other.inverted);
+  return *this;
+}
+template <class T>
+typename Solver<T>::Momentum& Solver<T>::Momentum::operator+=(const Momentum& other) {
+  for (int k = 0; k < 3; ++k) p[k] += other.p[k];
+  return *this;
+}
+
+template <class T>
+Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int terms, std::vector<SetView> sets,
+                  std::vector<LawOfSet> laws, ParticleStore<T> particles, Executor executor)
+    : grid_(grid),
+      dim_(dim),
+      flip_(flip),
+      terms_(terms),
+      sets_(std::move(sets)),
+      laws_(std::move(laws)),
+      store_(std::move(particles)),
+      run_(executor),
+      passes_(&passes(dim, shape, T())),
+      cells_(grid, dim) {
+  for (const LawOfSet& law : laws_) {
+    law_passes_.push_back(law_pass(dim, law.index, T()));
+    if (law_passes_.back() == nullptr) {
+      throw GpuError("gpu: a law of a user's program does not run there: use --device cpu");
+    }
+  }
+  for (const SetView& set : sets_) count_ += set.count;
+  for (int c = 0; c < dim * dim; ++c) gradient_[c].fit(count_);
+  node_.fit(count_);
+  id_room_.fit(count_);
+  fault_.fit(count_);
+  place_room_.fit(count_);
+  room_.fit(count_);
+  of_particles_.fit(Executor::groups_of(count_));
+  of_momentum_.fit(Executor::groups_of(count_));
+  make_room();
+}
+
+template <class T>
+void Solver<T>::make_room() {
+  cells_.make_room(run_, places().data(), sets_);
+  mass_.fit(cells_.room());
+  for (Buffer<double>& field : nodal_) field.fit(cells_.room() * dim_);
+  of_nodes_.fit(Executor::groups_of(cells_.room()));
+  must_sort_ = true;  // the table may have moved
+}
+
+template <class T>
+void Solver<T>::sort() {
+  cells_.sort(run_, places().data(), sets_);
+  const std::uint32_t *order = cells_.order(), *node = cells_.node_of_particles();
+  const auto permute = [&](auto& values, auto& room) {
+    if (values.size() == 0) return;
+    const auto* from = std::as_const(values).data();
+    auto* to = room.data();
+    run_.for_each("gpu: sort", count_, [=](long i) { to[i] = from[order[i]]; });
+    values.swap(room);
+  };
+  for (auto& one : store_.x) permute(one, place_room_);
+  for (auto& one : store_.v) permute(one, room_);
+  for (auto& one : store_.f) permute(one, room_);
+  for (auto& one : store_.tau) permute(one, room_);
+  for (auto& one : store_.history) permute(one, room_);
+  permute(store_.id, id_room_);
+  std::uint32_t* to = node_.data();
+  run_.for_each("gpu: sort", count_, [=](long i) { to[i] = node[i]; });
+  ++sorts_;
+}
+
+template <class T>
+StepView<T> Solver<T>::view(double dt) {
+  StepView<T> view{};
+  view.grid = grid_;
+  ParticleView<T>& particles = view.particles;
+  particles.count = count_;
+  for (int k = 0; k < 3; ++k) {
+    particles.x[k] = store_.x[k].data();
+    particles.v[k] = store_.v[k].data();
+  }
+  for (int c = 0; c < 9; ++c) {
+    particles.f[c] = store_.f[c].data();
+    particles.gradient[c] = gradient_[c].data();
+  }
+  for (int c = 0; c < 6; ++c) particles.tau[c] = store_.tau[c].data();
+  for (int h = 0; h < kMostHistory; ++h) particles.history[h] = store_.history[h].data();
+  particles.node = node_.data();
+  particles.fault = fault_.data();
+  view.nodes = cells_.view();
+  view.nodes.mass = mass_.data();
+  view.nodes.momentum = nodal_[0].data();
+  view.nodes.velocity = nodal_[1].data();
+  view.nodes.acceleration = nodal_[2].data();
+  view.nodes.held = nodal_[3].data();
+  view.sets = sets_.data();
+  view.set_count = static_cast<int>(sets_.size());
+  view.settings = {dt, flip_, terms_};
+  return view;
+}
+
+template <class T>
+void Solver<T>::step(double dt) {
+  if (must_sort_) sort();
+  const StepView<T> now = view(dt);
+  passes_->momentum(run_, now);
+  passes_->gradient(run_, now);
+  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
+  passes_->force(run_, now);
+  passes_->move(run_, now);
+  account(dt);
+  ++steps_;
+  check();
+}
+
+template <class T>
+void Solver<T>::account(double dt) {
+  const double *mass = mass_.data(), *held = nodal_[3].data(), least = grid_.least_mass;
+  const long nodes = cells_.view().nodes;
+  const int dim = dim_;
+  const OfNodes all = run_.reduce<OfNodes>(
+      "gpu: accounts", nodes,
+      [=](long i) {
+        OfNodes one{};
+        for (int c = 0; c < dim; ++c) one.held[c] = held[c * nodes + i];
+        one.mass = mass[i] > least ? mass[i] : 0.0;
+        return one;
+      },
+      of_nodes_);
+  for (int c = 0; c < dim; ++c) {
+    impulses_.walls[c] += all.held[c];
+    impulses_.gravity[c] += all.mass * grid_.gravity[c] * dt;
+  }
+}
+
+template <class T>
+void Solver<T>::check() {
+  const std::uint8_t* fault = fault_.data();
+  const OfParticles all = run_.reduce<OfParticles>(
+      "gpu: checks", count_,
+      [=](long i) {
+        OfParticles one;
+        one.left = (fault[i] & kLeftCell) != 0;
+        if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
+        if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
+        return one;
+      },
+      of_particles_);
+  must_sort_ = all.left;
+  const auto fail = [&](std::uint32_t p, const char* what) {
+    std::string place;
+    for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", store_.x[k][p]);
+    throw GpuError(fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", store_.id[p], place,
+                               what, steps_));
+  };
+  if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
+  if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
+}
+
+template <class T>
+std::array<double, 3> Solver<T>::momentum() {
+  Momentum sum;
+  for (const SetView& set : sets_) {
+    const T* v[3] = {store_.v[0].data(), store_.v[1].data(), store_.v[2].data()};
+    const double mass = set.mass;
+    const long first = set.first;
+    const int dim = dim_;
+    sum += run_.reduce<Momentum>(
+        "gpu: accounts", set.count,
+        [=](long i) {
+          Momentum one;
+          for (int c = 0; c < dim; ++c) one.p[c] = mass * static_cast<double>(v[c][first + i]);
+          return one;
+        },
+        of_momentum_);
+  }
+  return {sum.p[0], sum.p[1], sum.p[2]};
+}
+
+template <class T>
+std::size_t Solver<T>::particle_bytes() {
+  std::size_t sum = node_.bytes() + id_room_.bytes() + fault_.bytes() + place_room_.bytes() + room_.bytes();
+  store_.each([&](const auto& buffer) { sum += buffer.bytes(); });
+  for (const Buffer<T>& one : gradient_) sum += one.bytes();
+  return sum;
+}
+
+template <class T>
+std::size_t Solver<T>::bytes() {
+  std::size_t sum = particle_bytes() + cells_.bytes() + mass_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
+  for (const Buffer<double>& field : nodal_) sum += field.bytes();
+  return sum + of_momentum_.bytes();
+}
+
+template class Solver<double>;
+template class Solver<float>;
+
+}  // namespace mpm_gpu

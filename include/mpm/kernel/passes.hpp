@@ -102,7 +102,7 @@ class Passes {
     return failure;
   }
 
-  // Where e is the free strain, d u_i / d x_j is off by d e / d x_i times the distance to the place of the slope along
+  // Gradients of what a free strain e brings: d u_i / d x_j is off by d e / d x_i times the distance to the slope along
   // j, one way along the axis itself and the other way across it.
   [[gnu::noinline]] static void enhance(const Set& set, const ParticleChunk& chunk, double dt, Gradients& gradients) {
     const W per_time(1.0 / dt);

@@ -16,11 +16,12 @@
 //
 // Weak: where a body is held across the axis, stress across it varies in the cell, and what Poisson's ratio makes of
 // that along the axis stays, as it does in a loaded body without any heat. The slope is that of the place where a body
-// is when the quantity changes: growth of a tenth at once is followed to a tenth of itself. Along a periodic axis the
-// places of masses are taken for those of the nodes. With average_dilatation the sum of the three strains is the
-// mean's, and the work is booked as if it were not. It takes 6 numbers a particle along each axis, and one for each
-// quantity. Source: strain beside that of the displacement, J. C. Simo, M. S. Rifai (1990), Int. J. Numer. Meth. Eng.
-// 29, 1595-1638; here it is known beforehand and not solved for.
+// is when the quantity changes: growth by a fifth at once leaves up to a third of the error
+// (test/unit/thermal_stress_test.cpp). Along a periodic axis the places of masses are taken for those of the nodes.
+// With average_dilatation the sum of the three strains is the mean's, and the work is booked as if it were not. It
+// takes 5 numbers a particle along each axis, and one for each quantity. Source: strain beside that of the
+// displacement, J. C. Simo, M. S. Rifai (1990), Int. J. Numer. Meth. Eng. 29, 1595-1638; here it is known beforehand
+// and not solved for.
 #pragma once
 
 #include <array>

@@ -57,10 +57,14 @@ class TransferPasses {
 
   static void slope_lead(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays,
                          int count) {
+    static constexpr Parabolas kParabolas;
+    BlockView block = Interpolator::reach(given);
+    block.neighbours = kParabolas.blocks;
     Source<kDim> source;
-    load_parabolas(grid, given, source);
+    source.template load<kDim>(kParabolas.values, block, 0);
     take_slopes(grid, given, sets, arrays, count, source, [&](const Interpolator& in, int k, int q, W slope) {
-      return slope - (in.cells(k, q) - W(kMiddle)) * W(1.0 / grid.inverse_cell[k]);
+      const W cell(1.0 / grid.inverse_cell[k]);
+      return (slope * cell - in.cells(k, q) + W(kMiddle)) * cell;
     });
   }
 
@@ -171,24 +175,24 @@ class TransferPasses {
                              });
                            });
   }
-  // Parabolas about the tile's middle, by way of blocks of their own.
-  static void load_parabolas(const GridView& grid, const BlockView& given, Source<kDim>& source) {
-    constexpr int kBlocks = kDim == 3 ? 27 : kDim == 2 ? 9 : 3, kNodes = TileShape<kDim>::kBlockNodes;
-    double parabolas[kBlocks * kDim * kNodes];
-    int blocks[kBlocks];
-    for (int b = 0; b < kBlocks; ++b) {
-      blocks[b] = b;
-      for (int n = 0; n < kNodes; ++n) {
-        for (int k = kDim - 1, block = b, node = n; k >= 0; --k, block /= 3, node /= 4) {
-          const double arm = (4 * (block % 3) + node % 4 - mpm_kernel::kTileMargin - kMiddle) / grid.inverse_cell[k];
-          parabolas[(b * kDim + k) * kNodes + n] = 0.5 * arm * arm;
+  /// Parabolas along each axis about the tile's middle [cells^2], on the blocks that a tile is copied from.
+  struct Parabolas {
+    static constexpr int kBlocks = kDim == 3 ? 27 : kDim == 2 ? 9 : 3, kNodes = TileShape<kDim>::kBlockNodes;
+    double values[kBlocks * kDim * kNodes] = {};
+    int blocks[kBlocks] = {};
+
+    constexpr Parabolas() {
+      for (int b = 0; b < kBlocks; ++b) {
+        blocks[b] = b;
+        for (int n = 0; n < kNodes; ++n) {
+          for (int k = kDim - 1, block = b, node = n; k >= 0; --k, block /= 3, node /= 4) {
+            const double arm = 4 * (block % 3) + node % 4 - mpm_kernel::kTileMargin - kMiddle;
+            values[(b * kDim + k) * kNodes + n] = 0.5 * arm * arm;
+          }
         }
       }
     }
-    BlockView block = Interpolator::reach(given);
-    block.neighbours = blocks;
-    source.template load<kDim>(parabolas, block, 0);
-  }
+  };
 
   template <int Components>
   static void gather_components(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays,

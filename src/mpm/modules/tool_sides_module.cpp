@@ -51,7 +51,7 @@ std::vector<const RigidBody*> met_beside_cracks(const RunParts& parts) {
   return met;
 }
 
-/// Finds mass centres of nodes near thin tools and near these.
+/// Finds mass centres of nodes near thin tools whose sides are glued, if `sides` is not null, and near these.
 void add_mass_places(RunParts& parts, const ToolSides* sides, std::vector<const RigidBody*> tools) {
   const double cell = parts.layout().smallest_cell();
   const auto near = [sides, tools = std::move(tools), cell](const Vec3& middle, double radius) {
@@ -80,9 +80,10 @@ void add_tool_sides(RunParts& parts) {
     look_at(body, parts, sides);
   }
   parts.sides = sides;
-  if (!parts.map.divisions().empty()) parts.modules.add(std::make_unique<SideGlue>(*sides, parts.fields));
+  const bool glues = !parts.map.divisions().empty();
+  if (glues) parts.modules.add(std::make_unique<SideGlue>(*sides, parts.fields));
   std::vector<const RigidBody*> tools = met_beside_cracks(parts);
-  if (sides != nullptr || !tools.empty()) add_mass_places(parts, sides, std::move(tools));
+  if (glues || !tools.empty()) add_mass_places(parts, glues ? sides : nullptr, std::move(tools));
 }
 
 }  // namespace mpm

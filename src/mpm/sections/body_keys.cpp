@@ -69,7 +69,7 @@ const KeyTable<RigidBodyDefinition>& rigid_body_keys() {
                            {"all",
                             "where the tool is thin (`sides`): the bodies whose material has two sides at it; the "
                             "others keep one velocity field. A body that one thin tool names has two sides at every "
-                            "thin tool",
+                            "thin tool, one that cracks divide at those alone that name it",
                             "[soil]"}),
                number("reach", &Body::reach, kPlain, kPart,
                       {"",

@@ -1,4 +1,5 @@
-// The kernel of a law: strain and stress of one particle, by the solver's own update (kernel/stress.hpp). A table has a
+// The kernels of a law: strain and stress of one particle, by the solver's own update (kernel/stress.hpp), and the rate
+// at which it crosses cells, which limits the time step, by the solver's own survey (kernel/survey.hpp). A table has a
 // pass for each law of the closed list, so that the law is chosen once a set; between gradients and laws go arrays, so
 // that shape functions and laws do not know each other, as in the solver. Weak: the gradient takes dim^2 numbers a
 // particle to memory and back; a kernel of both is to be measured on a card. For code of one lane alone.
@@ -9,6 +10,7 @@
 #include <variant>
 
 #include "mpm/kernel/stress.hpp"
+#include "mpm/kernel/survey.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm_gpu/particle_passes.hpp"
 #include "mpm_gpu/passes.hpp"
@@ -45,6 +47,26 @@ struct LawKernel {
   }
 };
 
+template <class T, class Geometry, class LawType>
+struct RateKernel {
+  mpm_kernel::SetView<T> set;
+  double cell;
+  double* rates;
+  std::uint32_t first;
+
+  void operator()(long i) const {
+    const int p = static_cast<int>(first + i);
+    rates[p] = mpm::Survey<Geometry, T>::template fastest<LawType>(set, p, p + 1, cell).rate;
+  }
+
+  static void run(Executor& run, const StepView<T>& step, int number, const void* law, double cell, double* rates) {
+    const SetView& set = step.sets[number];
+    RateKernel kernel{solver_view(step.particles, set, Geometry::kDim), cell, rates, set.first};
+    kernel.set.law = law;
+    run.for_each("gpu: limit of the time step", set.count, kernel);
+  }
+};
+
 template <class T, class Geometry, class List = mpm::Law>
 struct LawPasses;
 template <class T, class Geometry, class... Laws>
@@ -57,7 +79,15 @@ struct LawPasses<T, Geometry, std::variant<Laws...>> {
     else
       return &LawKernel<T, Geometry, LawType>::run;
   }
+  template <class LawType>
+  static constexpr RatePass<T> rates() {
+    if constexpr (std::is_same_v<LawType, mpm::UserLaw>)
+      return nullptr;
+    else
+      return &RateKernel<T, Geometry, LawType>::run;
+  }
   static constexpr LawPass<T> kPasses[] = {pass<Laws>()...};
+  static constexpr RatePass<T> kRates[] = {rates<Laws>()...};
 };
 
 }  // namespace mpm_gpu

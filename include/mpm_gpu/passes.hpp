@@ -25,6 +25,9 @@ struct Passes {
 /// Strain and stress of the particles of one set, by its law.
 template <class T>
 using LawPass = void (*)(Executor&, const StepView<T>&, int set, const void* law);
+/// Rate at which each particle of one set crosses cells of this edge [m], at its number [1/s] (kernel/survey.hpp).
+template <class T>
+using RatePass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double cell, double* rates);
 
 /// In three dimensions or, with two axes, plane strain. The last argument tells the precision.
 const Passes<double>& passes(int dim, Shape shape, double);
@@ -32,5 +35,7 @@ const Passes<float>& passes(int dim, Shape shape, float);
 /// By the index of the law in the list of laws (material/law.hpp); null for one that cannot run there.
 LawPass<double> law_pass(int dim, std::size_t law, double);
 LawPass<float> law_pass(int dim, std::size_t law, float);
+RatePass<double> rate_pass(int dim, std::size_t law, double);
+RatePass<float> rate_pass(int dim, std::size_t law, float);
 
 }  // namespace mpm_gpu

@@ -43,7 +43,12 @@ struct ParticleStore {
 
 /// Impulses on the material since the start [N s], along the grid's axes.
 struct Impulses {
+  /// The wall at a face of the domain, 2 * axis, + 1 for the upper one.
+  struct OfFace {
+    double impulse[3] = {}, exchanged = 0.0;  ///< exchanged: sum over steps of the size of a step's impulse
+  };
   double walls[3] = {}, gravity[3] = {};
+  OfFace face[6] = {};
 };
 
 template <class T>
@@ -66,6 +71,12 @@ class Solver {
   const ParticleStore<T>& particles() const { return store_; }
   const std::vector<SetView>& sets() const { return sets_; }
   const Impulses& impulses() const { return impulses_; }
+  /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
+  struct Fastest {
+    double rate;  ///< [1/s]; NaN if that of any particle is
+    std::array<double, 3> place;
+  };
+  Fastest fastest(int set, double cell);
   /// Momentum of all particles along the grid's axes [N s].
   std::array<double, 3> momentum();
   long steps() const { return steps_; }
@@ -83,7 +94,7 @@ class Solver {
 
   /// Sums of the nodes in a step.
   struct OfNodes {
-    double held[3], mass;
+    double held[6][3], mass;  ///< held: by each face
     OfNodes& operator+=(const OfNodes& other);
   };
   /// Faults of the particles in a step; numbers of the first ones.
@@ -92,6 +103,12 @@ class Solver {
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
     OfParticles& operator+=(const OfParticles& other);
+  };
+  /// The fastest of some particles.
+  struct Faster {
+    double rank = -1.0, rate = -1.0;  ///< the rank of a rate that is not a number is above all others
+    std::uint32_t particle = 0;
+    Faster& operator+=(const Faster& other);
   };
   struct Momentum {
     double p[3] = {};
@@ -108,6 +125,7 @@ class Solver {
   Executor run_;
   const Passes<T>* passes_;
   std::vector<LawPass<T>> law_passes_;
+  std::vector<RatePass<T>> rate_passes_;
   CellTable cells_;
   long count_ = 0;
   std::array<Buffer<T>, 9> gradient_;
@@ -119,6 +137,7 @@ class Solver {
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
   Buffer<Momentum> of_momentum_;
+  Buffer<Faster> of_faster_;
   Impulses impulses_;
   bool must_sort_ = true;
   long steps_ = 0, sorts_ = 0;

@@ -1,7 +1,6 @@
 #include "mpm_gpu/exchange.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "mpm/kernel/kernels.hpp"
@@ -199,19 +198,18 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ParticleSet& set = sets[s];
     const long first = solver_.sets()[s].first;
-    // Both lists in the order of ids.
-    std::vector<std::uint32_t> here(set.size()), there(set.size());
-    std::iota(here.begin(), here.end(), 0U);
-    std::iota(there.begin(), there.end(), static_cast<std::uint32_t>(first));
-    std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) { return set.id[a] < set.id[b]; });
-    std::sort(there.begin(), there.end(), [&](std::uint32_t a, std::uint32_t b) { return store.id[a] < store.id[b]; });
+    const auto count = static_cast<std::size_t>(set.size());
+    std::vector<long> there(count);  // places in the store, by id from the first
+    for (long i = first; i < first + set.size(); ++i) there[store.id[i] - set.first_id] = i;
+    std::vector<long> from_where(count);
+    for (std::size_t p = 0; p < count; ++p) from_where[p] = there[set.id[p] - set.first_id];
     const auto copy = [&](const auto& from, auto& to) {
       for (std::size_t c = 0; c < to.size(); ++c) {
-        for (std::size_t i = 0; i < here.size(); ++i) to[c].set(here[i], from[c][there[i]]);
+        for (std::size_t p = 0; p < count; ++p) to[c].set(p, from[c][from_where[p]]);
       }
     };
     for (std::size_t k = 0; k < set.x.size(); ++k) {
-      for (std::size_t i = 0; i < here.size(); ++i) set.x[k][here[i]] = store.x[k][there[i]];
+      for (std::size_t p = 0; p < count; ++p) set.x[k][p] = store.x[k][from_where[p]];
     }
     copy(store.v, set.v);
     copy(store.f, set.f);

@@ -3,14 +3,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
+
+#include "mpm_gpu/faces.hpp"
 
 namespace mpm_gpu {
 
 template <class T>
 typename Solver<T>::OfNodes& Solver<T>::OfNodes::operator+=(const OfNodes& other) {
-  for (int k = 0; k < 3; ++k) held[k] += other.held[k];
+  for (int f = 0; f < 6; ++f) {
+    for (int k = 0; k < 3; ++k) held[f][k] += other.held[f][k];
+  }
   mass += other.mass;
   return *this;
 }
@@ -19,6 +25,11 @@ typename Solver<T>::OfParticles& Solver<T>::OfParticles::operator+=(const OfPart
   left = left || other.left;
   outside = std::min(outside, other.outside);
   inverted = std::min(inverted, other.inverted);
+  return *this;
+}
+template <class T>
+typename Solver<T>::Faster& Solver<T>::Faster::operator+=(const Faster& other) {
+  if (other.rank > rank) *this = other;
   return *this;
 }
 template <class T>
@@ -42,6 +53,7 @@ Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int t
       cells_(grid, dim) {
   for (const LawOfSet& law : laws_) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
+    rate_passes_.push_back(rate_pass(dim, law.index, T()));
     if (law_passes_.back() == nullptr) {
       throw GpuError("gpu: a law of a user's program does not run there: use --device cpu");
     }
@@ -55,6 +67,7 @@ Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int t
   room_.fit(count_);
   of_particles_.fit(Executor::groups_of(count_));
   of_momentum_.fit(Executor::groups_of(count_));
+  of_faster_.fit(Executor::groups_of(count_));
   make_room();
 }
 
@@ -135,21 +148,35 @@ void Solver<T>::step(double dt) {
 
 template <class T>
 void Solver<T>::account(double dt) {
-  const double *mass = mass_.data(), *held = nodal_[3].data(), least = grid_.least_mass;
-  const long nodes = cells_.view().nodes;
+  const double *mass = mass_.data(), *held = nodal_[3].data();
+  const NodeView view = cells_.view();
+  const std::uint64_t* keys = view.key;
+  const long nodes = view.nodes;
   const int dim = dim_;
+  const GridView grid = grid_;
   const OfNodes all = run_.reduce<OfNodes>(
       "gpu: accounts", nodes,
       [=](long i) {
         OfNodes one{};
-        for (int c = 0; c < dim; ++c) one.held[c] = held[c * nodes + i];
-        one.mass = mass[i] > least ? mass[i] : 0.0;
+        if (!(mass[i] > grid.least_mass)) return one;
+        one.mass = mass[i];
+        int number[3];
+        number_of_node(grid, dim, keys, i, number);
+        for (int c = 0; c < dim; ++c) {
+          const int face = holding_face(grid, dim, number, c);
+          if (face >= 0) one.held[face][c] = held[c * nodes + i];
+        }
         return one;
       },
       of_nodes_);
   for (int c = 0; c < dim; ++c) {
-    impulses_.walls[c] += all.held[c];
+    for (const auto& face : all.held) impulses_.walls[c] += face[c];
     impulses_.gravity[c] += all.mass * grid_.gravity[c] * dt;
+  }
+  for (int f = 0; f < 2 * dim; ++f) {
+    Impulses::OfFace& face = impulses_.face[f];
+    for (int c = 0; c < dim; ++c) face.impulse[c] += all.held[f][c];
+    face.exchanged += std::hypot(all.held[f][0], all.held[f][1], all.held[f][2]);
   }
 }
 
@@ -175,6 +202,27 @@ void Solver<T>::check() {
   };
   if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
+}
+
+template <class T>
+typename Solver<T>::Fastest Solver<T>::fastest(int set, double cell) {
+  const SetView& of = sets_[static_cast<std::size_t>(set)];
+  double* rates = place_room_.data();
+  rate_passes_[static_cast<std::size_t>(set)](run_, view(0.0), set, laws_[static_cast<std::size_t>(set)].law, cell,
+                                              rates);
+  const long first = of.first;
+  const Faster found = run_.reduce<Faster>(
+      "gpu: limit of the time step", of.count,
+      [=](long i) {
+        constexpr double kEndless = std::numeric_limits<double>::infinity();
+        const double rate = rates[first + i];
+        return Faster{rate <= kEndless ? rate : 2.0 * std::numeric_limits<double>::max(), rate,
+                      static_cast<std::uint32_t>(first + i)};
+      },
+      of_faster_);
+  Fastest fastest{found.rate, {}};
+  for (int k = 0; k < dim_; ++k) fastest.place[static_cast<std::size_t>(k)] = store_.x[k][found.particle];
+  return fastest;
 }
 
 template <class T>
@@ -209,7 +257,7 @@ template <class T>
 std::size_t Solver<T>::bytes() {
   std::size_t sum = particle_bytes() + cells_.bytes() + mass_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
-  return sum + of_momentum_.bytes();
+  return sum + of_momentum_.bytes() + of_faster_.bytes();
 }
 
 template class Solver<double>;

@@ -35,6 +35,13 @@ class Wall final : public FieldStage {
     return holding(hook, Rank::wall, Rank::wall_again);
   }
 
+  int face() const { return face_; }
+  /// Books what the wall has given where a device takes the steps (step/device.hpp).
+  void count(const ImpulseAccount& given) {
+    account_.impulse += given.impulse;
+    account_.exchanged += given.exchanged;
+  }
+
   void momentum_gathered(FieldContext& context) override;
   void before_strain(FieldContext& context) override;
   void momentum_updated(FieldContext& context) override;

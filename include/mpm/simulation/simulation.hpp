@@ -26,6 +26,7 @@
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/robot/joint_target.hpp"
 #include "mpm/robot/robot_report.hpp"
+#include "mpm/step/device.hpp"
 
 namespace mpm {
 
@@ -51,6 +52,9 @@ struct RunParts;
 /// Adds the modules of a physics to a run (modules/run_parts.hpp).
 using AddModules = std::function<void(RunParts&)>;
 
+/// Makes the processor that takes the steps of an assembled run, from its particles (step/device.hpp).
+using MakeDevice = std::function<std::unique_ptr<Device>(const SimulationDefinition&, const std::vector<ParticleSet>&)>;
+
 struct SimulationOptions {
   int threads = 0;                       ///< 0: as many as the machine has, with at least 4,000 particles each
   std::optional<Isa> isa = {};           ///< instruction set of the kernels; without it the widest one available
@@ -67,6 +71,9 @@ struct SimulationOptions {
   std::function<bool()> interrupt = {};
   /// Counts where the wall time of steps goes; null: nowhere. It outlives the simulation.
   TimeProfile* profile = nullptr;
+  /// Another processor, which takes all steps; null: this one does. In one process only, and without modules of the
+  /// caller.
+  MakeDevice device = {};
 };
 
 class Simulation {

@@ -102,7 +102,8 @@ std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
 
 }  // namespace
 
-Vec3 Simulation::State::momentum() const {
+Vec3 Simulation::State::momentum() {
+  fetch();
   Vec3 total = sum_particles(
       "particles: momentum", sets, threads, Vec3(Vec3::Zero()),
       [&](const ParticleSet& set, int p) { return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p)); });
@@ -152,6 +153,7 @@ MaterialTotals& MaterialTotals::operator+=(const MaterialTotals& other) {
 }
 
 const RunTotals& Simulation::State::find_totals() {
+  fetch();
   totals.energy.begin_again();
   totals.of_set.resize(sets.size());
   MaterialTotals& of_all = totals.material = {};
@@ -168,6 +170,7 @@ const RunTotals& Simulation::State::find_totals() {
   totals.energy.add("plastic", NamedEnergy::Kind::dissipated, of_all.plastic);
   totals.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
   mechanics->energies(totals.energy);
+  if (device) totals.energy.leave_open();  // it does not count what walls hold up and PIC takes
   modules.energies(totals.energy);
   if (over) {
     over->add_up(totals.energy);
@@ -224,7 +227,8 @@ SharingReport Simulation::sharing() const {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  const State& s = *state_;
+  State& s = *state_;
+  s.fetch();
   ByteHash hash;
   hash.add(s.time);
   for (const ParticleSet& set : s.sets) {

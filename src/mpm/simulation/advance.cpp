@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/boundary/wall.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "state.hpp"
 
@@ -60,7 +61,12 @@ bool Simulation::State::step(double start, double dt, bool more) {
   StepContext context{fields, dt, start};
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg,
                                      &step_implicit};  // in the order of UpdateScheme
-  kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
+  if (device) {
+    device_ahead = true;
+    device->step(dt);
+  } else {
+    kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
+  }
   gravity.add(definition.gravity * (total_mass * dt));
   for (auto& robot : robots) robot->end_step();
   for (RigidBody& body : bodies) body.end_step(dt);
@@ -96,8 +102,23 @@ bool Simulation::State::step(double start, double dt, bool more) {
   return now.stops;
 }
 
+void Simulation::State::fetch() {
+  if (!device_ahead) return;
+  device_ahead = false;
+  moved_by_device = true;
+  device->fetch(sets);
+  tell_modules();
+}
+
+void Simulation::State::tell_modules() {
+  for (Module* module : modules.list()) {
+    if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
+  }
+}
+
 void Simulation::State::run_period() {
   const TimeProfile::Use use(profile);
+  if (device) device->make_room();
   // Implicit steps resolve motion, whose limit is its own.
   const double cfl = definition.method.update == UpdateScheme::implicit ? 1.0 : definition.time.cfl;
   const double begin = seconds_of(time);
@@ -136,6 +157,7 @@ void Simulation::State::run_period() {
     seen = now;
   }
   time += definition.time.sync;
+  if (device) tell_modules();
   timed("modules: sync point", [&] {
     for (Module* module : modules.list()) module->at_sync(time);
   });

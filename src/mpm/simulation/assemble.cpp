@@ -221,6 +221,10 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
   agree<DefinitionError>(options.ranks.get(), [&] { check(given, options.ranks ? options.ranks->size() : 1); });
+  if (options.device && (options.ranks || !options.modules.empty())) {
+    throw DefinitionError(options.ranks ? "steps on another processor are taken in one process: run it without ranks"
+                                        : "steps on another processor do not reach modules of the program");
+  }
   if (options.threads > kMostThreads) {
     throw DefinitionError(
         fmt::format("{} threads are asked for; at most {} can be had, and more than the machine's {} "
@@ -309,6 +313,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (s.over) s.over->warn_of_idle(s.sets, s.warnings);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);
+  if (options.device) s.device = options.device(definition, s.sets);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.watch_energy(0.0, s.material_limit);

@@ -87,7 +87,8 @@ void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, i
 
 }  // namespace
 
-std::vector<SetView> Simulation::State::views() const {
+std::vector<SetView> Simulation::State::views() {
+  fetch();
   std::vector<SetView> list;
   const QuantityDefinition* heat = definition.transport.find(Transported::temperature);
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -206,7 +207,7 @@ std::vector<std::int64_t> gather_rows(Communicator& ranks, const std::vector<Set
 
 std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() { return names_of_particle_fields(); }
 
-void Simulation::State::check_field(const std::string& name) const { find_fields({name}, views()); }
+void Simulation::State::check_field(const std::string& name) { find_fields({name}, views()); }
 
 bool Simulation::needs_start(const std::vector<std::string>& fields) {
   return std::any_of(fields.begin(), fields.end(), [](const std::string& name) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mpm/particles/permute.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "state.hpp"
 #include "state_hash.hpp"
@@ -97,6 +98,16 @@ bool serialise_wrenches(StateArchive& archive, std::size_t rigid_bodies, std::ve
   return true;
 }
 
+/// Puts particles, all of them awake and here, in the order of their ids.
+void put_in_order_of_ids(ParticleSet& set, int threads) {
+  std::vector<std::uint32_t> places(set.id.size());
+  for (std::size_t p = 0; p < places.size(); ++p) places[set.id[p] - set.first_id] = static_cast<std::uint32_t>(p);
+  ParticleOrder order;
+  order.be_as_in_memory(set);
+  PermuteScratch scratch;
+  permute(set, places.data(), order, places.size(), scratch, threads);
+}
+
 }  // namespace
 
 void LineFit::serialise(StateArchive& archive, std::vector<LineFit>& fits) {
@@ -173,6 +184,15 @@ void Simulation::State::serialise_limit(StateArchive& archive, const char* name,
 }
 
 void Simulation::State::serialise(StateArchive& archive) {
+  if (device && !archive.reading()) {
+    fetch();
+    if (moved_by_device && !failed) {
+      // Sorted as a run on the processor has them, from an order that does not depend on when they were read before.
+      for (ParticleSet& set : sets) put_in_order_of_ids(set, threads);
+      sort(seconds_of(time));
+    }
+    moved_by_device = false;
+  }
   if (archive.reading()) failed = true;  // until all has been read
   archive.value("time", time);
   archive.value("steps", steps.steps);
@@ -215,6 +235,10 @@ void Simulation::State::serialise(StateArchive& archive) {
   if (archive.merging()) {
     if (over) over->divide(sets);
     sort(seconds_of(time));
+  }
+  if (archive.reading() && device) {
+    device->take(sets);
+    device_ahead = moved_by_device = false;
   }
   if (archive.reading()) failed = false;
 }

@@ -84,6 +84,9 @@ struct Simulation::State {
   std::unique_ptr<NodeChoice> choice;  ///< choice of fields by particles near cracks
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
+  std::unique_ptr<Device> device;  ///< another processor that takes the steps, else null
+  bool device_ahead = false;       ///< true if it has taken steps that the sets do not show yet
+  bool moved_by_device = false;    ///< true if sets show its steps and have not been sorted since
   std::vector<RigidBody> bodies;
   std::vector<std::unique_ptr<Robot>> robots;  ///< robots, whose links are among the bodies
   Modules modules;
@@ -106,6 +109,10 @@ struct Simulation::State {
   std::vector<LineFit> rates;          ///< rate of each metric; those without a window stay empty
   std::vector<PeriodWrench> wrenches;  ///< wrench of each rigid body; empty where no metric is a force or a torque
 
+  /// Brings sets and accounts up to date with the device, if there is one. All that reads them calls it before.
+  void fetch();
+  /// Lets modules know what the device has done in their place.
+  void tell_modules();
   /// Looks whether bodies may be where they have been put. Collective. @throws RigidError
   void check_places(const std::vector<const RigidBody*>& moved);
   /// Lets modules know of bodies that have been put elsewhere. Collective.
@@ -119,9 +126,9 @@ struct Simulation::State {
   /// The shipped modules that the definition asks for, those of the caller, and the mechanics.
   void add_modules(const std::vector<AddModules>& of_caller);
   /// Views of each set, for particle fields (particle_view.hpp).
-  std::vector<SetView> views() const;
+  std::vector<SetView> views();
   /// @throws DefinitionError for a particle field that the run does not have
-  void check_field(const std::string& name) const;
+  void check_field(const std::string& name);
   /// Impulse given to the material since the start by the account of that name; zero without one [N s].
   Vec3 impulse(const std::string& account) const;
   /// Numbers of all modules.
@@ -133,7 +140,7 @@ struct Simulation::State {
   /// The value that the first rank found.
   double from_first(double value) const;
   /// Momentum of all particles [N s].
-  Vec3 momentum() const;
+  Vec3 momentum();
   /// Limit of the step by the material now.
   StepLimit survey_material() const;
   /// The same of an implicit step.

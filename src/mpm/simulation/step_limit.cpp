@@ -166,6 +166,17 @@ StepLimit Simulation::State::survey_material() const {
     double shear = shear_of(definition, sets[s], layout(), threads);
     if (traits_of(definition.method.shape).shear_limits_step) shear = largest_of_all(ranks.get(), shear);
     if (sets[s].awake() == 0) continue;
+    if (device) {
+      const Device::Fastest found = device->fastest(static_cast<int>(s), cell);
+      StepLimit material;
+      material.dt = definition.time.cfl / found.rate;
+      material.by = mechanics.get();
+      material.part = static_cast<int>(s);
+      material.speed = found.rate * cell;
+      material.place = found.place;
+      limit.tighten(material);
+      continue;
+    }
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
     material.dt = courant_of_shear(definition.time.cfl, shear) / found.rate;

@@ -57,6 +57,7 @@ constexpr bool kOnDevice = !std::is_same_v<OneLaw, mpm::UserLaw> && !std::is_sam
 template <class T, class Geometry, class OneLaw>
 void law() {
   if constexpr (kOnDevice<OneLaw>) (void)&launch<LawKernel<T, Geometry, OneLaw>>;
+  if constexpr (kOnDevice<OneLaw>) (void)&launch<RateKernel<T, Geometry, OneLaw>>;
 }
 template <class T, class Geometry, class... Laws>
 void each_law(const std::variant<Laws...>*) {

@@ -8,5 +8,11 @@ LawPass<double> law_pass(int dim, std::size_t law, double) {
 LawPass<float> law_pass(int dim, std::size_t law, float) {
   return dim == 3 ? LawPasses<float, mpm::Solid>::kPasses[law] : LawPasses<float, mpm::PlaneStrain>::kPasses[law];
 }
+RatePass<double> rate_pass(int dim, std::size_t law, double) {
+  return dim == 3 ? LawPasses<double, mpm::Solid>::kRates[law] : LawPasses<double, mpm::PlaneStrain>::kRates[law];
+}
+RatePass<float> rate_pass(int dim, std::size_t law, float) {
+  return dim == 3 ? LawPasses<float, mpm::Solid>::kRates[law] : LawPasses<float, mpm::PlaneStrain>::kRates[law];
+}
 
 }  // namespace mpm_gpu

@@ -1,0 +1,89 @@
+#include "mpm_gpu/device.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "mpm/modules/with_precision.hpp"
+#include "mpm_gpu/exchange.hpp"
+
+namespace mpm_gpu {
+namespace {
+
+using mpm::ImpulseAccount;
+using mpm::ParticleSet;
+using mpm::Vec3;
+
+template <class T>
+class RunDevice final : public mpm::Device {
+ public:
+  RunDevice(const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
+      : definition_(definition),
+        layout_(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max),
+        executor_(executor) {
+    begin(sets);
+  }
+
+  void step(double dt) override {
+    told([&] { run_->solver().step(dt); });
+  }
+  void make_room() override {
+    told([&] { run_->solver().make_room(); });
+  }
+  Fastest fastest(int set, double cell) override {
+    const auto found = run_->solver().fastest(set, cell);
+    return {found.rate, in_world(found.place)};
+  }
+  ImpulseAccount take_given(int face) override {
+    const Impulses::OfFace& now = run_->solver().impulses().face[face];
+    Impulses::OfFace& before = told_[face];
+    std::array<double, 3> along{};
+    for (int k = 0; k < 3; ++k) along[k] = now.impulse[k] - before.impulse[k];
+    ImpulseAccount given;
+    given.impulse = in_world(along);
+    given.exchanged = now.exchanged - before.exchanged;
+    before = now;
+    return given;
+  }
+  void fetch(std::vector<ParticleSet>& sets) const override { run_->write_to(sets); }
+  void take(const std::vector<ParticleSet>& sets) override { begin(sets); }
+
+ private:
+  void begin(const std::vector<ParticleSet>& sets) {
+    run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
+    told_ = {};
+  }
+  Vec3 in_world(const std::array<double, 3>& along) const {
+    Vec3 vector = Vec3::Zero();
+    for (int k = 0; k < layout_.dim(); ++k) vector[layout_.axis(k)] = along[k];
+    return vector;
+  }
+  /// The run knows the errors of modules alone.
+  template <class Work>
+  static void told(Work&& work) {
+    try {
+      work();
+    } catch (const GpuError& error) {
+      throw mpm::ModuleError(error.what());
+    }
+  }
+
+  const mpm::SimulationDefinition& definition_;  ///< the simulation's own
+  mpm::GridLayout layout_;
+  Executor executor_;
+  std::unique_ptr<DeviceRun<T>> run_;
+  std::array<Impulses::OfFace, 6> told_{};
+};
+
+}  // namespace
+
+mpm::MakeDevice device_by(Executor executor) {
+  return [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets) {
+    return mpm::with_precision(definition.method.precision, [&](auto zero) -> std::unique_ptr<mpm::Device> {
+      return std::make_unique<RunDevice<decltype(zero)>>(definition, sets, executor);
+    });
+  };
+}
+
+}  // namespace mpm_gpu

@@ -1,0 +1,147 @@
+// A whole simulation whose steps a device takes: its clock, step limits, accounts, fields and checkpoints are those of
+// a run on the processor. Cost: 2 s.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../unit/checkpoint_run.hpp"
+#include "gpu_scenes.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_gpu/device.hpp"
+
+namespace gpu_simulation_test {
+
+using mpm::Simulation;
+using mpm::SimulationDefinition;
+using mpm::SimulationOptions;
+
+constexpr int kPeriods = 8;
+
+SimulationDefinition scene(SimulationDefinition (*of)(mpm::Precision)) {
+  SimulationDefinition d = of(mpm::Precision::float64);
+  d.time.sync = 5'000'000;
+  return d;
+}
+
+SimulationOptions options(bool on_device) {
+  SimulationOptions chosen;
+  chosen.threads = 1;
+  if (on_device) chosen.device = mpm_gpu::device_by(mpm_gpu::Executor(mpm_gpu::Visits::shuffled, 2));
+  return chosen;
+}
+
+void advance(Simulation& simulation, int periods) {
+  for (int i = 0; i < periods; ++i) simulation.advance();
+}
+
+std::vector<double> field(const Simulation& simulation, const char* name) {
+  std::vector<double> values;
+  simulation.particle_field(name, values);
+  return values;
+}
+
+/// Largest difference of a field, over the largest value that it has.
+double difference(const Simulation& a, const Simulation& b, const char* name) {
+  const std::vector<double> one = field(a, name), other = field(b, name);
+  double most = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    most = std::max(most, std::abs(one[i] - other[i]));
+    size = std::max(size, std::abs(one[i]));
+  }
+  EXPECT_GT(size, 0.0) << name;
+  return most / size;
+}
+
+// Sums of a step differ in the last bit, and 8 sync periods of some 10 steps let that grow; nothing else differs. The
+// same bound holds between two instruction sets of the processor.
+constexpr double kRoundOff = 1e-10;
+
+void expect_alike(Simulation& here, Simulation& there) {
+  EXPECT_EQ(here.time(), there.time());
+  const mpm::SolverState a = here.state(), b = there.state();
+  EXPECT_EQ(a.step.steps, b.step.steps);
+  EXPECT_NEAR(a.step.dt_min, b.step.dt_min, kRoundOff * a.step.dt_min);
+  EXPECT_EQ(a.step.limited_by.substr(0, 20), b.step.limited_by.substr(0, 20));
+  for (const char* energy : {"kinetic", "elastic", "potential", "plastic"}) {
+    EXPECT_NEAR(a.energy.of(energy), b.energy.of(energy), kRoundOff * a.energy.whole()) << energy;
+  }
+  ASSERT_EQ(a.audit.impulses.size(), b.audit.impulses.size());
+  for (std::size_t i = 0; i < a.audit.impulses.size(); ++i) {
+    EXPECT_EQ(a.audit.impulses[i].name, b.audit.impulses[i].name);
+    const double size = a.audit.exchanged;
+    EXPECT_NEAR((a.audit.impulses[i].impulse - b.audit.impulses[i].impulse).norm(), 0.0, kRoundOff * size)
+        << a.audit.impulses[i].name;
+  }
+  EXPECT_NEAR(a.audit.exchanged, b.audit.exchanged, kRoundOff * a.audit.exchanged);
+  EXPECT_LT(b.audit.residual, kRoundOff);
+  for (const char* name : {"x", "z", "vz", "j"}) EXPECT_LT(difference(here, there, name), kRoundOff) << name;
+}
+
+void expect_run_alike(SimulationDefinition (*of)(mpm::Precision)) {
+  Simulation here(scene(of), options(false)), there(scene(of), options(true));
+  expect_alike(here, there);
+  advance(here, kPeriods);
+  advance(there, kPeriods);
+  expect_alike(here, there);
+  EXPECT_LT(difference(here, there, "szz"), kRoundOff);
+  EXPECT_FALSE(there.state().energy.closed());
+}
+
+TEST(GpuSimulation, ElasticBlockRunsAsOnTheProcessor) { expect_run_alike(gpu_scenes::falling_block); }
+TEST(GpuSimulation, ColumnRunsAsOnTheProcessor) { expect_run_alike(gpu_scenes::column); }
+
+// Half of the run on one, half on the other, by a checkpoint; either way. The accounts of walls go on.
+TEST(GpuSimulation, CheckpointsGoFromOneToTheOther) {
+  const mpm::test::Folder folder;
+  Simulation whole(scene(gpu_scenes::column), options(false));
+  advance(whole, kPeriods);
+  for (const bool begins_on_device : {true, false}) {
+    const std::string file = folder.file(begins_on_device ? "from_device.h5" : "to_device.h5");
+    Simulation first(scene(gpu_scenes::column), options(begins_on_device));
+    advance(first, kPeriods / 2);
+    mpm::save_checkpoint(file, first, {});
+    Simulation second(scene(gpu_scenes::column), options(!begins_on_device));
+    mpm::load_checkpoint(file, second, "");
+    EXPECT_EQ(first.state_hash(), second.state_hash());
+    advance(second, kPeriods / 2);
+    expect_alike(whole, second);
+  }
+}
+
+// What is read between two sync points changes nothing that follows.
+TEST(GpuSimulation, ReadingChangesNothing) {
+  Simulation quiet(scene(gpu_scenes::column), options(true)), read(scene(gpu_scenes::column), options(true));
+  for (int i = 0; i < kPeriods; ++i) {
+    quiet.advance();
+    read.advance();
+    field(read, "szz");
+    read.memory_hash();
+  }
+  EXPECT_EQ(quiet.state_hash(), read.state_hash());
+}
+
+// A particle that leaves the domain ends the run by a PhysicsError that names it, and the run does not go on.
+TEST(GpuSimulation, FailsAsARunDoes) {
+  SimulationDefinition d = scene(gpu_scenes::falling_block);
+  for (mpm::WallDefinition& wall : d.walls) wall.kind = mpm::WallKind::none;
+  Simulation simulation(d, options(true));
+  try {
+    advance(simulation, 200);
+    FAIL() << "no error";
+  } catch (const mpm::PhysicsError& error) {
+    EXPECT_NE(std::string(error.what()).find("particle "), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(simulation.advance(), mpm::PhysicsError);
+  EXPECT_EQ(field(simulation, "z").size(), 512U);
+}
+
+TEST(GpuSimulation, RefusesModulesOfTheProgram) {
+  SimulationOptions both = options(true);
+  both.modules.push_back([](mpm::RunParts&) {});
+  EXPECT_THROW(Simulation(scene(gpu_scenes::column), both), mpm::DefinitionError);
+}
+
+}  // namespace gpu_simulation_test

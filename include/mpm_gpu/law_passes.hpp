@@ -12,6 +12,7 @@
 #include "mpm/kernel/stress.hpp"
 #include "mpm/kernel/survey.hpp"
 #include "mpm/material/law.hpp"
+#include "mpm_gpu/average_pass.hpp"
 #include "mpm_gpu/particle_passes.hpp"
 #include "mpm_gpu/passes.hpp"
 
@@ -86,6 +87,14 @@ struct LawPasses<T, Geometry, std::variant<Laws...>> {
     else
       return &RateKernel<T, Geometry, LawType>::run;
   }
+  template <class LawType>
+  static constexpr AveragePass<T> averages() {
+    if constexpr (LawType::kAveragesStress && !std::is_same_v<LawType, mpm::UserLaw>)
+      return &AverageKernel<T, Geometry, LawType>::run;
+    else
+      return nullptr;
+  }
+  static constexpr AveragePass<T> kAverages[] = {averages<Laws>()...};
   static constexpr LawPass<T> kPasses[] = {pass<Laws>()...};
   static constexpr RatePass<T> kRates[] = {rates<Laws>()...};
 };

@@ -25,6 +25,9 @@ struct Passes {
 /// Strain and stress of the particles of one set, by its law.
 template <class T>
 using LawPass = void (*)(Executor&, const StepView<T>&, int set, const void* law);
+/// Mean stresses of the cells of one set (mechanics/stress_average.hpp).
+template <class T>
+using AveragePass = void (*)(Executor&, const StepView<T>&, int set, const void* law);
 /// Rate at which each particle of one set crosses cells of this edge [m], at its number [1/s] (kernel/survey.hpp).
 template <class T>
 using RatePass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double cell, double* rates);
@@ -35,6 +38,9 @@ const Passes<float>& passes(int dim, Shape shape, float);
 /// By the index of the law in the list of laws (material/law.hpp); null for one that cannot run there.
 LawPass<double> law_pass(int dim, std::size_t law, double);
 LawPass<float> law_pass(int dim, std::size_t law, float);
+/// Null for a law whose stress is not averaged.
+AveragePass<double> average_pass(int dim, std::size_t law, double);
+AveragePass<float> average_pass(int dim, std::size_t law, float);
 RatePass<double> rate_pass(int dim, std::size_t law, double);
 RatePass<float> rate_pass(int dim, std::size_t law, float);
 

@@ -1,6 +1,7 @@
 // Steps of a run on the device: its memory, and the passes in their order. One step (USF):
 //
 //   sort          particles by cell, the table of blocks        where a particle has left its cell, and at first
+//   (average)     tau, F                    <-  particles       a cell at a time, where a body's stress is averaged
 //   momentum      m, m v, v of nodes        <-  particles       a gather by nodes
 //   gradient      grad v of particles       <-  v               a gather by particles
 //   (the law)     F, tau, history           <-  grad v dt       a set at a time
@@ -27,6 +28,7 @@ struct ParticleStore {
   std::array<Buffer<T>, 9> f;
   std::array<Buffer<T>, 6> tau;
   std::array<Buffer<T>, kMostHistory> history;
+  Buffer<double> strain_before;
   Buffer<std::uint32_t> id;
 
   /// visit(buffer) for each.
@@ -37,6 +39,7 @@ struct ParticleStore {
     for (auto& one : f) visit(one);
     for (auto& one : tau) visit(one);
     for (auto& one : history) visit(one);
+    visit(strain_before);
     visit(id);
   }
 };
@@ -87,6 +90,7 @@ class Solver {
 
  private:
   void sort();
+  void average(const StepView<T>& now);
   StepView<T> view(double dt);
   void check();
   void account(double dt);

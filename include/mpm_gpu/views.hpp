@@ -40,6 +40,7 @@ struct SetView {
   double mass;                   ///< mass of a particle [kg]
   double half[3];                ///< half of a particle's box [cells]
   double lowest[3], highest[3];  ///< limits of a centre [cells]
+  bool averages;                 ///< the mean stress of a cell is taken
 };
 
 template <class T>
@@ -50,9 +51,10 @@ struct ParticleView {
   T* f[9];       ///< deformation gradient
   T* tau[6];     ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
-  T* gradient[9];       ///< gradient of the velocity, in this step [1/s]
-  std::uint32_t* node;  ///< number of the nearest node in the table
-  std::uint8_t* fault;  ///< bits of Fault, in this step
+  double* strain_before;  ///< plastic strain at the start of the step before; null where no stress is averaged
+  T* gradient[9];         ///< gradient of the velocity, in this step [1/s]
+  std::uint32_t* node;    ///< number of the nearest node in the table
+  std::uint8_t* fault;    ///< bits of Fault, in this step
 };
 
 /// Findings of a kernel about a particle.

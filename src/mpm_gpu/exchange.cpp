@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mpm/kernel/kernels.hpp"
+#include "mpm/mechanics/stress_average.hpp"
 #include "mpm/rules/method_rules.hpp"
 
 namespace mpm_gpu {
@@ -18,10 +19,6 @@ struct Feature {
   const char* name;
 };
 
-bool any_shares_stress(const SimulationDefinition& d) {
-  return mpm::averages_stress(d.method, d.geometry) &&
-         std::any_of(d.bodies.begin(), d.bodies.end(), [&](const auto& body) { return shares_stress(d, body); });
-}
 bool any_wall(const SimulationDefinition& d, bool (*is)(mpm::WallKind)) {
   return std::any_of(d.walls.begin(), d.walls.end(), [is](const auto& wall) { return is(wall.kind); });
 }
@@ -90,6 +87,14 @@ std::vector<typename Solver<T>::LawOfSet> pointers_to(const std::vector<mpm::Law
   return result;
 }
 
+/// Plastic strains at the start of the step before, by place, of a set whose stress is averaged; else null.
+template <class Set>
+auto* strain_before(Set& set) {
+  const auto is_it = [](const auto& scalar) { return scalar.name == mpm::StressAverage::kStrainBefore; };
+  const auto found = std::find_if(set.brought.begin(), set.brought.end(), is_it);
+  return found == set.brought.end() ? nullptr : &found->values;
+}
+
 std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
   std::vector<SetView> views;
   std::uint32_t first = 0;
@@ -98,6 +103,7 @@ std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
     view.first = first;
     view.count = static_cast<std::uint32_t>(set.size());
     view.mass = set.mass;
+    view.averages = strain_before(set) != nullptr;
     for (int k = 0; k < 3; ++k) {
       view.half[k] = set.half[k];
       view.lowest[k] = set.lowest[k];
@@ -134,6 +140,10 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     copy(set.f, store.f);
     copy(set.tau, store.tau);
     copy(set.history, store.history);
+    if (const auto* before = strain_before(set)) {
+      store.strain_before.fit(count);
+      for (int p = 0; p < set.size(); ++p) store.strain_before[first + p] = (*before)[p];
+    }
     for (int p = 0; p < set.size(); ++p) store.id[first + p] = set.id[p];
     first += set.size();
   }
@@ -153,7 +163,6 @@ std::string refused(const SimulationDefinition& d) {
       {transfer.kind != mpm::TransferKind::flip || transfer.mixes() || transfer.every != 1,
        "method.transfer other than FLIP with a fraction of PIC"},
       {d.method.average_dilatation, "method.average_dilatation"},
-      {any_shares_stress(d), "method.average_stress"},
       {d.method.damping.any(), "method.damping"},
       {any_user_law(d), "a law of a user's program"},
       {several_fields(d), "contact of deformable bodies"},
@@ -215,6 +224,9 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
     copy(store.f, set.f);
     copy(store.tau, set.tau);
     copy(store.history, set.history);
+    if (auto* before = strain_before(set)) {
+      for (std::size_t p = 0; p < count; ++p) (*before)[p] = store.strain_before[from_where[p]];
+    }
   }
 }
 

@@ -96,6 +96,7 @@ void Solver<T>::sort() {
   for (auto& one : store_.f) permute(one, room_);
   for (auto& one : store_.tau) permute(one, room_);
   for (auto& one : store_.history) permute(one, room_);
+  permute(store_.strain_before, place_room_);
   permute(store_.id, id_room_);
   std::uint32_t* to = node_.data();
   run_.for_each("gpu: sort", count_, [=](long i) { to[i] = node[i]; });
@@ -118,6 +119,7 @@ StepView<T> Solver<T>::view(double dt) {
   }
   for (int c = 0; c < 6; ++c) particles.tau[c] = store_.tau[c].data();
   for (int h = 0; h < kMostHistory; ++h) particles.history[h] = store_.history[h].data();
+  particles.strain_before = store_.strain_before.data();
   particles.node = node_.data();
   particles.fault = fault_.data();
   view.nodes = cells_.view();
@@ -136,6 +138,7 @@ template <class T>
 void Solver<T>::step(double dt) {
   if (must_sort_) sort();
   const StepView<T> now = view(dt);
+  average(now);
   passes_->momentum(run_, now);
   passes_->gradient(run_, now);
   for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
@@ -144,6 +147,14 @@ void Solver<T>::step(double dt) {
   account(dt);
   ++steps_;
   check();
+}
+
+template <class T>
+void Solver<T>::average(const StepView<T>& now) {
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    if (!sets_[s].averages) continue;
+    average_pass(dim_, laws_[s].index, T())(run_, now, static_cast<int>(s), laws_[s].law);
+  }
 }
 
 template <class T>

@@ -191,9 +191,6 @@ TEST(GpuStep, RefusesByName) {
   d.method.update = mpm::UpdateScheme::usavg;
   EXPECT_EQ(mpm_gpu::refused(d), "method.update other than usf");
   d = gpu_scenes::column(mpm::Precision::float64);
-  d.method.average_stress = true;
-  EXPECT_EQ(mpm_gpu::refused(d), "method.average_stress");
-  d.method.average_stress = false;
   d.walls[0].kind = mpm::WallKind::frictional;
   EXPECT_EQ(mpm_gpu::refused(d), "a wall other than fixed, slip and symmetry");
   const std::vector<ParticleSet> none;

@@ -57,6 +57,11 @@ class StressAverage final : public Stage {
   /// `choice` outlives the stage.
   void divide(const NodeChoice& choice, std::unique_ptr<CellParts> parts);
 
+  /// Takes note of the plastic strains of the start, unless that has been done; the first step does it without a call.
+  void begin();
+  /// The name of the particles' plastic strains at the start of the step before (ParticleSet::brought).
+  static constexpr const char* kStrainBefore = "plastic_strain_before";
+
   std::string name() const override { return "stress_average"; }
   Ranks ranks(Hook) const override { return {Rank::particle_stress}; }
 

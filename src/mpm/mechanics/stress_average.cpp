@@ -4,71 +4,25 @@
 #include <cmath>
 
 #include "mpm/grid/each_share.hpp"
+#include "mpm/kernel/flowing.hpp"
 #include "mpm/math/dimension.hpp"
 
 namespace mpm {
 namespace {
 
-// Above round-off, which must not decide who takes part.
-constexpr double kFlow = 1e-12;     ///< plastic strain in a step from which on a particle flows
-constexpr double kPressure = 1e-9;  ///< pressure over the stiffness of a wave from which on it is under pressure
-
-/// Storage of a stress: in a plane xx, zz, xz, yy.
-template <class Geometry>
-struct Stored {
-  static constexpr int kCount = Geometry::kDim == 3 ? 6 : 4;
-  static constexpr std::array<int, 3> kDiagonal =
-      Geometry::kDim == 3 ? std::array<int, 3>{0, 1, 2} : std::array<int, 3>{0, 1, 3};
-  using Stress = std::array<double, kCount>;
-
-  static double mean(const Stress& s) { return (s[kDiagonal[0]] + s[kDiagonal[1]] + s[kDiagonal[2]]) / 3.0; }
-  static auto symmetric(const Stress& s) {
-    if constexpr (Geometry::kDim == 3) {
-      return Symmetric3<double>{s[0], s[1], s[2], s[3], s[4], s[5]};
-    } else {
-      return SymmetricPlane<double>{s[0], s[1], s[2], s[3]};
-    }
-  }
-};
-
-/// One particle's data as the average needs them.
+/// One set's particles as the average needs them.
 template <class Geometry, class T, class LawType>
-class Particles {
-  static_assert(LawType::kPlasticStrain >= 0, "what flows is known by its plastic strain");
+class Particles : public FlowingParticles<Geometry, T, LawType> {
+  using Flowing = FlowingParticles<Geometry, T, LawType>;
 
  public:
-  using Tensor = Stored<Geometry>;
-  using Stress = typename Tensor::Stress;
-
   Particles(ParticleSet& set, const LawType& law, double* strain_before)
-      : set_(set), strain_(set.history[LawType::kPlasticStrain].template data<T>()), before_(strain_before) {
-    if constexpr (!finds_pressure(LawType::kStressFrom)) {
-      const double speed = law.wave_speed(Matrix3<double>::identity(), Symmetric3<double>{}, 1.0);
-      least_pressure_ = kPressure * speed * speed;
-    }
-    for (int i = 0; i < Tensor::kCount; ++i) stress_[i] = set_.tau[i].template data<T>();
-    for (int i = 0; i < kRows; ++i) gradient_[i] = set_.f[i].template data<T>();
-  }
+      : Flowing(arrays(set, law, strain_before)), set_(set) {}
 
-  bool flows(std::uint32_t p) const {
-    if (!(strain_[p] > before_[p] + kFlow)) return false;
-    return finds_pressure(LawType::kStressFrom) || Tensor::mean(stress(p)) < -least_pressure_;
-  }
-  void remember(std::uint32_t p) { before_[p] = strain_[p]; }
   double mass(std::uint32_t p) const { return set_.mass_of(static_cast<int>(p)); }
-  double volume_ratio(std::uint32_t p) const { return determinant(Geometry::load_matrix(set_.f, static_cast<int>(p))); }
-  Stress stress(std::uint32_t p) const {
-    Stress s;
-    for (int i = 0; i < Tensor::kCount; ++i) s[i] = static_cast<double>(stress_[i][p]);
-    return s;
-  }
-  void set_stress(std::uint32_t p, const Stress& s) {
-    for (int i = 0; i < Tensor::kCount; ++i) stress_[i][p] = static_cast<T>(s[i]);
-  }
   /// Scales the deformation along the grid's axes, so that the volume grows by this factor.
   void swell(std::uint32_t p, double factor) {
-    const double along = Geometry::kDim == 3 ? std::cbrt(factor) : Geometry::kDim == 2 ? std::sqrt(factor) : factor;
-    for (int i = 0; i < kRows; ++i) gradient_[i][p] = static_cast<T>(along * gradient_[i][p]);
+    this->stretch(p, Geometry::kDim == 3 ? std::cbrt(factor) : Geometry::kDim == 2 ? std::sqrt(factor) : factor);
   }
   /// Number of the cell along each axis, counted from its block's first; a particle lies at most half a cell before it.
   std::array<int, 3> cell(std::uint32_t p, const GridLayout& layout, const std::array<int, 3>& block) const {
@@ -82,15 +36,22 @@ class Particles {
   }
 
  private:
-  static constexpr int kShift = 64;                              ///< cells: farther from its block no particle is
-  static constexpr int kRows = Geometry::kDim * Geometry::kDim;  ///< components along the grid's axes come first
+  static constexpr int kShift = 64;  ///< cells: farther from its block no particle is
+
+  static FlowingArrays<T> arrays(ParticleSet& set, const LawType& law, double* strain_before) {
+    FlowingArrays<T> arrays{};
+    for (int i = 0; i < Flowing::Stored::kCount; ++i) arrays.stress[i] = set.tau[i].template data<T>();
+    for (int i = 0; i < Geometry::kMatrix; ++i) arrays.gradient[i] = set.f[i].template data<T>();
+    arrays.strain = set.history[LawType::kPlasticStrain].template data<T>();
+    arrays.strain_before = strain_before;
+    if constexpr (!finds_pressure(LawType::kStressFrom)) {
+      const double speed = law.wave_speed(Matrix3<double>::identity(), Symmetric3<double>{}, 1.0);
+      arrays.least_pressure = Flowing::kPressure * speed * speed;
+    }
+    return arrays;
+  }
 
   ParticleSet& set_;
-  const T* strain_;
-  double* before_;
-  double least_pressure_ = 0.0;  ///< [J/kg]
-  std::array<T*, Tensor::kCount> stress_;
-  std::array<T*, kRows> gradient_;
 };
 
 /// Owner of the block with this key, which has one: blocks whose particles choose a field are owners in all fields that
@@ -117,7 +78,7 @@ int part_of(const CellParts* parts, const ParticleSet& set, const std::array<int
 
 StressAverage::StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads, Halo* halo)
     : sets_(std::move(sets)), geometry_(geometry), threads_(threads), halo_(halo) {
-  for (const AveragedSet& one : sets_) places_.push_back(one.set->bring("plastic_strain_before", "1"));
+  for (const AveragedSet& one : sets_) places_.push_back(one.set->bring(kStrainBefore, "1"));
 }
 
 template <class Visit>
@@ -214,17 +175,18 @@ void StressAverage::gather(const Place& place, const LawType& law, double* befor
       cell.step = step_;
     }
     const double mass = particles.mass(p);
-    const auto stress = particles.stress(p);
+    double stress[StoredStress<Geometry>::kCount];
+    particles.stress(p, stress);
     cell.mass += mass;
     cell.volume += mass * particles.volume_ratio(p);
-    for (std::size_t i = 0; i < stress.size(); ++i) cell.stress[i] += mass * stress[i];
+    for (int i = 0; i < StoredStress<Geometry>::kCount; ++i) cell.stress[i] += mass * stress[i];
     ++cell.particles;
   }
 }
 
 template <class Geometry, class T, class LawType>
 double StressAverage::share(const Place& place, const LawType& law, double* before, const Grid& grid, Cells& cells) {
-  using Tensor = Stored<Geometry>;
+  using Stored = StoredStress<Geometry>;
   const AveragedSet& one = sets_[place.set];
   Particles<Geometry, T, LawType> particles(*one.set, law, before);
   const int* of_block = &cells.of_set_block[place.set * grid.blocks.size()];
@@ -238,13 +200,14 @@ double StressAverage::share(const Place& place, const LawType& law, double* befo
     const Cell& cell = cell_at(grid, place.owner, at, part_of(place.parts, *one.set, at, p), of_block, cells);
     if (cell.particles < 2) continue;
     const double inverse_mass = 1.0 / cell.mass;
-    typename Tensor::Stress mean;
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = cell.stress[i] * inverse_mass;
+    double mean[Stored::kCount], own[Stored::kCount];
+    particles.stress(p, own);
+    for (int i = 0; i < Stored::kCount; ++i) mean[i] = cell.stress[i] * inverse_mass;
     const double ratio = particles.volume_ratio(p), mean_ratio = cell.volume * inverse_mass;
-    const auto energy = [&](const typename Tensor::Stress& s, double j) {
-      return law.elastic_energy(Geometry::dilatation(1.0), Tensor::symmetric(s), j);
+    const auto energy = [&](const double* s, double j) {
+      return law.elastic_energy(Geometry::dilatation(1.0), Stored::template symmetric<double>(s), j);
     };
-    lost += particles.mass(p) * (energy(particles.stress(p), ratio) - energy(mean, mean_ratio));
+    lost += particles.mass(p) * (energy(own, ratio) - energy(mean, mean_ratio));
     particles.set_stress(p, mean);
     particles.swell(p, mean_ratio / ratio);
   }
@@ -333,18 +296,23 @@ void StressAverage::momentum_gathered(StepContext& context) {
   cells_.resize(context.fields.size());
   with_geometry(geometry_, [&](auto kind) {
     using Geometry = decltype(kind);
-    if (begun_ != 0) {
-      for (std::size_t f = 0; f < context.fields.size(); ++f)
-        average<Geometry>(*context.fields[f], static_cast<int>(f), cells_[f]);
-      return;
+    for (std::size_t f = 0; begun_ != 0 && f < context.fields.size(); ++f) {
+      average<Geometry>(*context.fields[f], static_cast<int>(f), cells_[f]);
     }
-    // As ground has that was settled: the plastic strains of the start are not of this run.
+  });
+  begin();
+}
+
+// As ground has that was settled: the plastic strains of the start are not of this run.
+void StressAverage::begin() {
+  if (begun_ != 0) return;
+  begun_ = 1;
+  with_geometry(geometry_, [&](auto kind) {
     each_set([&](std::size_t s, double* before, auto scalar, const auto& law) {
-      Particles<Geometry, decltype(scalar), std::decay_t<decltype(law)>> particles(*sets_[s].set, law, before);
+      Particles<decltype(kind), decltype(scalar), std::decay_t<decltype(law)>> particles(*sets_[s].set, law, before);
       for (int p = 0; p < sets_[s].set->size(); ++p) particles.remember(p);
     });
   });
-  begun_ = 1;
 }
 
 void StressAverage::energies(EnergyReport& report) const {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "mpm/boundary/wall.hpp"
+#include "mpm/mechanics/stress_average.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "state.hpp"
 
@@ -108,6 +109,13 @@ void Simulation::State::fetch() {
   moved_by_device = true;
   device->fetch(sets);
   tell_modules();
+}
+
+void Simulation::State::hand_to_device(const MakeDevice& make) {
+  for (Module* module : modules.list()) {
+    if (auto* average = dynamic_cast<StressAverage*>(module)) average->begin();
+  }
+  device = make(definition, sets);
 }
 
 void Simulation::State::tell_modules() {

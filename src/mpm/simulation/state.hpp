@@ -111,6 +111,8 @@ struct Simulation::State {
 
   /// Brings sets and accounts up to date with the device, if there is one. All that reads them calls it before.
   void fetch();
+  /// Lets a device take the steps from here on.
+  void hand_to_device(const MakeDevice& make);
   /// Lets modules know what the device has done in their place.
   void tell_modules();
   /// Looks whether bodies may be where they have been put. Collective. @throws RigidError

@@ -58,6 +58,7 @@ template <class T, class Geometry, class OneLaw>
 void law() {
   if constexpr (kOnDevice<OneLaw>) (void)&launch<LawKernel<T, Geometry, OneLaw>>;
   if constexpr (kOnDevice<OneLaw>) (void)&launch<RateKernel<T, Geometry, OneLaw>>;
+  if constexpr (kOnDevice<OneLaw> && OneLaw::kAveragesStress) (void)&launch<AverageKernel<T, Geometry, OneLaw>>;
 }
 template <class T, class Geometry, class... Laws>
 void each_law(const std::variant<Laws...>*) {

@@ -14,5 +14,11 @@ RatePass<double> rate_pass(int dim, std::size_t law, double) {
 RatePass<float> rate_pass(int dim, std::size_t law, float) {
   return dim == 3 ? LawPasses<float, mpm::Solid>::kRates[law] : LawPasses<float, mpm::PlaneStrain>::kRates[law];
 }
+AveragePass<double> average_pass(int dim, std::size_t law, double) {
+  return dim == 3 ? LawPasses<double, mpm::Solid>::kAverages[law] : LawPasses<double, mpm::PlaneStrain>::kAverages[law];
+}
+AveragePass<float> average_pass(int dim, std::size_t law, float) {
+  return dim == 3 ? LawPasses<float, mpm::Solid>::kAverages[law] : LawPasses<float, mpm::PlaneStrain>::kAverages[law];
+}
 
 }  // namespace mpm_gpu

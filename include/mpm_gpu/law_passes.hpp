@@ -28,9 +28,10 @@ struct LawKernel {
 
   void operator()(long i) const {
     const int p = static_cast<int>(first + i);
-    // Only its first column is touched, so that inlined it is dim^2 registers.
-    mpm_kernel::ChunkGradients<T> gradients;
-    for (int c = 0; c < Geometry::kDim * Geometry::kDim; ++c) gradients.l[c][0] = gradient[c][p];
+    struct {
+      const T* l[Geometry::kDim * Geometry::kDim];
+    } gradients;
+    for (int c = 0; c < Geometry::kDim * Geometry::kDim; ++c) gradients.l[c] = gradient[c] + p;
     const int good = mpm::Stress<Geometry, T>::template update<LawType>(set, p, 1, gradients, settings, nullptr);
     fault[p] = good == 1 ? 0 : kInverted;
   }

@@ -67,8 +67,9 @@ class Stress {
   static constexpr bool kFreeThickness = std::is_same_v<Geometry, PlaneStress>;
 
  public:
-  template <class LawType>
-  static int update(const Set& set, int first, int count, const mpm_kernel::ChunkGradients<T>& gradients,
+  /// `gradients.l[c]` is where component c of the first particle's is, as in mpm_kernel::ChunkGradients.
+  template <class LawType, class Gradients>
+  static int update(const Set& set, int first, int count, const Gradients& gradients,
                     const mpm_kernel::StrainSettings& settings, Columns* out) {
     if (set.free_strain != nullptr) return update_growing<LawType>(set, first, count, gradients, settings, out);
     return update_plain<LawType>(set, first, count, gradients, settings, out);
@@ -84,21 +85,19 @@ class Stress {
 
  private:
   // Two functions, so that the loop of material that does not grow has no part of the other.
-  template <class LawType>
-  MPM_FLATTEN static int update_plain(const Set& set, int first, int count,
-                                      const mpm_kernel::ChunkGradients<T>& gradients,
+  template <class LawType, class Gradients>
+  MPM_FLATTEN static int update_plain(const Set& set, int first, int count, const Gradients& gradients,
                                       const mpm_kernel::StrainSettings& settings, Columns* out) {
     return update_each<LawType, false>(set, first, count, gradients, settings, out);
   }
-  template <class LawType>
-  [[gnu::cold]] static int update_growing(const Set& set, int first, int count,
-                                          const mpm_kernel::ChunkGradients<T>& gradients,
+  template <class LawType, class Gradients>
+  [[gnu::cold]] static int update_growing(const Set& set, int first, int count, const Gradients& gradients,
                                           const mpm_kernel::StrainSettings& settings, Columns* out) {
     return update_each<LawType, true>(set, first, count, gradients, settings, out);
   }
 
-  template <class LawType, bool Grows>
-  static int update_each(const Set& set_view, int first, int count, const mpm_kernel::ChunkGradients<T>& gradients,
+  template <class LawType, bool Grows, class Gradients>
+  static int update_each(const Set& set_view, int first, int count, const Gradients& gradients,
                          const mpm_kernel::StrainSettings& settings, Columns* out) {
     static_assert(std::is_trivially_copyable_v<LawType>, "laws cross the border between instruction sets as bytes");
     const Set set = set_view;

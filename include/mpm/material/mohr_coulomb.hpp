@@ -90,7 +90,7 @@ class MohrCoulomb : public LawDefaults {
       region = cutoff_is_apex_ ? Region::apex : tension_return(s, r, sin_dilation);
       if (cutoff_is_apex_) r[0] = r[1] = r[2] = cutoff;
     }
-    std::copy(r, r + 3, s);
+    for (int k = 0; k < 3; ++k) s[k] = r[k];
     return region;
   }
 
@@ -177,7 +177,10 @@ class MohrCoulomb : public LawDefaults {
     Principal<T> axes = principal(cauchy);
     int order[3] = {0, 1, 2};  // an index, so that principal values stay paired with their directions
     const auto sort = [&axes, &order](int a, int b) {
-      if (axes.value[order[a]] < axes.value[order[b]]) std::swap(order[a], order[b]);
+      if (!(axes.value[order[a]] < axes.value[order[b]])) return;
+      const int larger = order[b];
+      order[b] = order[a];
+      order[a] = larger;
     };
     sort(0, 1);
     sort(1, 2);

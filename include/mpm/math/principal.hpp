@@ -32,7 +32,8 @@ Principal<T> principal(const Symmetric3<T>& s) {
   const auto none = [&](int i, int j) { return std::abs(a[i][j]) <= round_off; };
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     if (none(0, 1) && none(0, 2) && none(1, 2)) break;
-    for (const auto& [i, j] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
+    for (int pair = 0; pair < 3; ++pair) {  // 0 and 1, 0 and 2, 1 and 2
+      const int i = pair / 2, j = (pair + 3) / 2;
       const T shear = a[i][j];
       if (none(i, j)) continue;
       const T theta = (a[j][j] - a[i][i]) / (T(2) * shear);

@@ -13,7 +13,8 @@ mpm_kernel::SetView<T> solver_view(const ParticleView<T>& particles, const SetVi
   mpm_kernel::SetView<T> view{};
   view.mass = set.mass;
   for (int k = 0; k < dim; ++k) {
-    view.x[k] = view.next_x[k] = particles.x[k];
+    view.x[k] = particles.x[k];
+    view.next_x[k] = particles.next_x[k];
     view.v[k] = particles.v[k];
   }
   for (int c = 0; c < 9; ++c) view.f[c] = particles.f[c];
@@ -70,7 +71,7 @@ struct MoveKernel {
     for (int c = 0; c < Dim; ++c) {
       const int before = nearest_node(in_cells(step.grid, c, step.particles.x[c][p]));
       advance.template particles<false, false>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
-      const double cells = in_cells(step.grid, c, step.particles.x[c][p]);
+      const double cells = in_cells(step.grid, c, step.particles.next_x[c][p]);
       if (!(cells >= set.lowest[c] && cells <= set.highest[c])) {
         fault |= kOutside;
       } else if (nearest_node(cells) != before) {

@@ -11,15 +11,16 @@
 namespace mpm_gpu {
 
 enum class Shape : int { ugimp, bspline2 };
+enum class Update : int { usf, usl, usavg };
 
-/// The passes of a step (USF) in their order; the law's is between `gradient` and `force`.
+/// The passes of a step, which Solver puts in their order.
 template <class T>
 struct Passes {
   using Pass = void (*)(Executor&, const StepView<T>&);
   Pass momentum;  ///< m, m v and v on nodes, v as walls let it be for the strain
   Pass gradient;  ///< grad v of particles
   Pass force;     ///< a, and v of the step's end, by force, gravity and walls
-  Pass move;      ///< v and x of particles; what has left its cell or the domain
+  Pass move;      ///< v and next x of particles; what has left its cell or the domain
 };
 
 /// Strain and stress of the particles of one set, by its law.

@@ -1,4 +1,4 @@
-// Steps of a run on the device: its memory, and the passes in their order. One step (USF):
+// Steps of a run on the device: its memory, and the passes in their order. One step, strain first (USF):
 //
 //   sort          particles by cell, the table of blocks        where a particle has left its cell, and at first
 //   momentum      m, m v, v of nodes        <-  particles       a gather by nodes
@@ -6,6 +6,9 @@
 //   (the law)     F, tau, history           <-  grad v dt       a set at a time
 //   force         a, v of nodes             <-  particles       a gather by nodes; gravity and walls
 //   move          v, x of particles         <-  v, a            a gather by particles
+//
+// Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
+// start: particles move to other places, which become theirs at the end. USAVG does half of the strain at each time.
 //
 // Nothing is allocated in a step after make_room(), which is called between sync periods.
 #pragma once
@@ -41,6 +44,14 @@ struct ParticleStore {
   }
 };
 
+/// What a scene says of the method.
+struct Method {
+  Shape shape = Shape::ugimp;
+  Update update = Update::usf;
+  double flip = 1.0;  ///< fraction of FLIP; the rest is PIC
+  int terms = 1;      ///< number of terms of exp(grad v dt)
+};
+
 /// Impulses on the material since the start [N s], along the grid's axes.
 struct Impulses {
   double walls[3] = {}, gravity[3] = {};
@@ -55,8 +66,8 @@ class Solver {
     std::size_t index;
     const void* law;
   };
-  Solver(const GridView& grid, int dim, Shape shape, double flip, int terms, std::vector<SetView> sets,
-         std::vector<LawOfSet> laws, ParticleStore<T> particles, Executor executor);
+  Solver(const GridView& grid, int dim, const Method& method, std::vector<SetView> sets, std::vector<LawOfSet> laws,
+         ParticleStore<T> particles, Executor executor);
 
   /// Fits the memory to where the particles are; between sync periods.
   void make_room();
@@ -77,6 +88,8 @@ class Solver {
  private:
   void sort();
   StepView<T> view(double dt);
+  /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
+  void strain(StepView<T> now, double dt);
   void check();
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
@@ -100,8 +113,7 @@ class Solver {
 
   GridView grid_;
   int dim_;
-  double flip_;
-  int terms_;
+  Method method_;
   std::vector<SetView> sets_;
   std::vector<LawOfSet> laws_;
   ParticleStore<T> store_;
@@ -110,6 +122,7 @@ class Solver {
   std::vector<LawPass<T>> law_passes_;
   CellTable cells_;
   long count_ = 0;
+  std::array<Buffer<double>, 3> next_x_;  ///< empty with USF
   std::array<Buffer<T>, 9> gradient_;
   Buffer<std::uint32_t> node_, id_room_;
   Buffer<std::uint8_t> fault_;

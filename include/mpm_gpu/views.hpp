@@ -45,10 +45,11 @@ struct SetView {
 template <class T>
 struct ParticleView {
   long count;
-  double* x[3];  ///< [m]
-  T* v[3];       ///< [m/s]
-  T* f[9];       ///< deformation gradient
-  T* tau[6];     ///< Kirchhoff stress over initial density [J/kg]
+  double* x[3];       ///< [m]
+  double* next_x[3];  ///< after the motion: x itself where no strain follows [m]
+  T* v[3];            ///< [m/s]
+  T* f[9];            ///< deformation gradient
+  T* tau[6];          ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   T* gradient[9];       ///< gradient of the velocity, in this step [1/s]
   std::uint32_t* node;  ///< number of the nearest node in the table
@@ -73,9 +74,10 @@ struct NodeView {
 };
 
 struct StepSettings {
-  double dt;    ///< [s]
-  double flip;  ///< fraction of FLIP; the rest is PIC
-  int terms;    ///< number of terms of exp(grad v dt)
+  double dt;         ///< [s]
+  double strain_dt;  ///< of one update of strain: half of dt where there are two [s]
+  double flip;       ///< fraction of FLIP; the rest is PIC
+  int terms;         ///< number of terms of exp(grad v strain_dt)
 };
 
 template <class T>

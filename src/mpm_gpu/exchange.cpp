@@ -61,6 +61,17 @@ GridView view_of(const SimulationDefinition& d) {
   return view;
 }
 
+Method method_of(const SimulationDefinition& d) {
+  Method method;
+  method.shape = d.method.shape == mpm::ShapeKind::bspline2 ? Shape::bspline2 : Shape::ugimp;
+  method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
+                  : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
+                                                                : Update::usf;
+  method.flip = d.method.transfer.flip;
+  method.terms = d.method.gradient_terms;
+  return method;
+}
+
 const mpm::DeformableBody& body_of(const SimulationDefinition& d, const std::string& name) {
   const auto found = std::find_if(d.bodies.begin(), d.bodies.end(), [&](const auto& b) { return b.name == name; });
   if (found == d.bodies.end()) throw GpuError("gpu: no body of the scene is called '" + name + "'");
@@ -150,7 +161,7 @@ std::string refused(const SimulationDefinition& d) {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
       {d.method.shape != mpm::ShapeKind::ugimp && d.method.shape != mpm::ShapeKind::bspline2,
        "method.shape_function other than ugimp and bspline2"},
-      {d.method.update != mpm::UpdateScheme::usf, "method.update other than usf"},
+      {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
       {transfer.kind != mpm::TransferKind::flip || transfer.mixes() || transfer.every != 1,
        "method.transfer other than FLIP with a fraction of PIC"},
       {d.method.average_dilatation, "method.average_dilatation"},
@@ -188,9 +199,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
             view.least_mass = least_mass(sets);
             return view;
           }(),
-          dimensions(definition.geometry),
-          definition.method.shape == mpm::ShapeKind::bspline2 ? Shape::bspline2 : Shape::ugimp,
-          definition.method.transfer.flip, definition.method.gradient_terms, views_of(sets), pointers_to<T>(laws_),
+          dimensions(definition.geometry), method_of(definition), views_of(sets), pointers_to<T>(laws_),
           store_of<T>(sets), executor) {}
 
 template <class T>

@@ -94,6 +94,19 @@ inline mpm::SimulationDefinition two_blocks(mpm::Precision precision) {
   return d;
 }
 
+/// The falling block, its strain updated last.
+inline mpm::SimulationDefinition block_usl(mpm::Precision precision) {
+  mpm::SimulationDefinition d = falling_block(precision);
+  d.method.update = mpm::UpdateScheme::usl;
+  return d;
+}
+/// The column, its strain updated half first and half last; a little of PIC.
+inline mpm::SimulationDefinition column_usavg(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column(precision);
+  d.method.update = mpm::UpdateScheme::usavg;
+  return d;
+}
+
 /// Time in which the fastest wave of the materials at rest crosses 0.3 cells [s].
 inline double step_of(const mpm::SimulationDefinition& d) {
   double fastest = 0.0;

@@ -106,6 +106,10 @@ TEST(GpuStep, MetalAgreesInDouble) { expect_agreement<double>(gpu_scenes::metal,
 TEST(GpuStep, MetalAgreesInSingle) { expect_agreement<float>(gpu_scenes::metal, 1e-5); }
 TEST(GpuStep, TwoBodiesAgreeInDouble) { expect_agreement<double>(gpu_scenes::two_blocks, 1e-10); }
 TEST(GpuStep, TwoBodiesAgreeInSingle) { expect_agreement<float>(gpu_scenes::two_blocks, 1e-5); }
+TEST(GpuStep, StrainLastAgreesInDouble) { expect_agreement<double>(gpu_scenes::block_usl, 1e-10); }
+TEST(GpuStep, StrainLastAgreesInSingle) { expect_agreement<float>(gpu_scenes::block_usl, 1e-5); }
+TEST(GpuStep, StrainInHalvesAgreesInDouble) { expect_agreement<double>(gpu_scenes::column_usavg, 1e-10); }
+TEST(GpuStep, StrainInHalvesAgreesInSingle) { expect_agreement<float>(gpu_scenes::column_usavg, 1e-5); }
 
 // The change of momentum is the sum of the impulses of gravity and walls, each found by itself.
 template <class T>
@@ -129,6 +133,7 @@ TEST(GpuStep, MomentumCloses) {
   expect_closed<double>(gpu_scenes::column, 1e-10);
   expect_closed<double>(gpu_scenes::metal, 1e-10);
   expect_closed<float>(gpu_scenes::metal, 1e-5);
+  expect_closed<double>(gpu_scenes::column_usavg, 1e-10);
 }
 
 /// All numbers of a run as bytes.
@@ -166,6 +171,7 @@ TEST(GpuStep, OrderOfVisitsDoesNotMatter) {
   expect_same_bits<double>(gpu_scenes::falling_block);
   expect_same_bits<float>(gpu_scenes::column);
   expect_same_bits<double>(gpu_scenes::two_blocks);
+  expect_same_bits<float>(gpu_scenes::column_usavg);
 }
 
 // Half of the steps here, the rest by the solver from what was written back.
@@ -188,8 +194,8 @@ TEST(GpuStep, SolverGoesOnFromThere) {
 TEST(GpuStep, RefusesByName) {
   SimulationDefinition d = gpu_scenes::falling_block(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
-  d.method.update = mpm::UpdateScheme::usavg;
-  EXPECT_EQ(mpm_gpu::refused(d), "method.update other than usf");
+  d.method.update = mpm::UpdateScheme::implicit;
+  EXPECT_EQ(mpm_gpu::refused(d), "method.update implicit");
   d = gpu_scenes::column(mpm::Precision::float64);
   d.method.average_stress = true;
   EXPECT_EQ(mpm_gpu::refused(d), "method.average_stress");

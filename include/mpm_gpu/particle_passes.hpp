@@ -23,6 +23,16 @@ mpm_kernel::SetView<T> solver_view(const ParticleView<T>& particles, const SetVi
   return view;
 }
 
+/// Notes the stretch that boxes of the shape function have in this step.
+template <class T, int Dim>
+struct DomainKernel {
+  StepView<T> step;
+
+  void operator()(long p) const {
+    for (int k = 0; k < Dim; ++k) step.particles.domain[k][p] = step.particles.f[k * Dim + k][p];
+  }
+};
+
 template <class T, int Dim, template <class> class ShapeClass>
 struct GradientKernel {
   StepView<T> step;
@@ -33,7 +43,7 @@ struct GradientKernel {
     const long p = set.first + i;
     const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
     W l[Dim][Dim] = {};
-    each_node_of<T, Dim>(step, p, [&](long node, const int* n) {
+    each_node_of<Dim, Stencil<T, Dim, ShapeClass>::kNodes>(step, p, [&](long node, const int* n) {
       W slope[Dim];
       for (int k = 0; k < Dim; ++k) slope[k] = stencil.gradient(n, k);
       for (int c = 0; c < Dim; ++c) {
@@ -57,7 +67,7 @@ struct MoveKernel {
     const long p = set.first + i;
     const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
     W velocity[Dim] = {}, acceleration[Dim] = {};
-    each_node_of<T, Dim>(step, p, [&](long node, const int* n) {
+    each_node_of<Dim, Stencil<T, Dim, ShapeClass>::kNodes>(step, p, [&](long node, const int* n) {
       const W value = stencil.value(n);
       for (int c = 0; c < Dim; ++c) {
         velocity[c] += value * W(step.nodes.velocity[c * step.nodes.nodes + node]);

@@ -10,13 +10,14 @@
 
 namespace mpm_gpu {
 
-enum class Shape : int { ugimp, bspline2 };
+enum class Shape : int { ugimp, ugimp_stretch, bspline2, bspline3 };
 enum class Update : int { usf, usl, usavg };
 
 /// The passes of a step, which Solver puts in their order.
 template <class T>
 struct Passes {
   using Pass = void (*)(Executor&, const StepView<T>&);
+  Pass domains;   ///< stretch of boxes for this step; null of a shape function that does not stretch
   Pass momentum;  ///< m, m v and v on nodes, v as walls let it be for the strain
   Pass gradient;  ///< grad v of particles
   Pass force;     ///< a, and v of the step's end, by force, gravity and walls

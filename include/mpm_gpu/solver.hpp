@@ -44,7 +44,7 @@ struct ParticleStore {
   }
 };
 
-/// What a scene says of the method.
+/// Choices of method of a scene.
 struct Method {
   Shape shape = Shape::ugimp;
   Update update = Update::usf;
@@ -124,6 +124,7 @@ class Solver {
   long count_ = 0;
   std::array<Buffer<double>, 3> next_x_;  ///< empty with USF
   std::array<Buffer<T>, 9> gradient_;
+  std::array<Buffer<T>, 3> domain_;  ///< empty of a shape function that does not stretch
   Buffer<std::uint32_t> node_, id_room_;
   Buffer<std::uint8_t> fault_;
   Buffer<double> place_room_;

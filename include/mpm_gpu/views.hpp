@@ -52,6 +52,7 @@ struct ParticleView {
   T* tau[6];          ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   T* gradient[9];       ///< gradient of the velocity, in this step [1/s]
+  T* domain[3];         ///< stretch of the shape function's box, of the step's start; of one that has it
   std::uint32_t* node;  ///< number of the nearest node in the table
   std::uint8_t* fault;  ///< bits of Fault, in this step
 };
@@ -75,7 +76,7 @@ struct NodeView {
 
 struct StepSettings {
   double dt;         ///< [s]
-  double strain_dt;  ///< of one update of strain: half of dt where there are two [s]
+  double strain_dt;  ///< time of one update of strain: half of dt where there are two [s]
   double flip;       ///< fraction of FLIP; the rest is PIC
   int terms;         ///< number of terms of exp(grad v strain_dt)
 };

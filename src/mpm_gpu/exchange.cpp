@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "mpm/kernel/kernels.hpp"
@@ -61,9 +62,24 @@ GridView view_of(const SimulationDefinition& d) {
   return view;
 }
 
+std::optional<Shape> shape_of(mpm::ShapeKind kind) {
+  switch (kind) {
+    case mpm::ShapeKind::ugimp:
+      return Shape::ugimp;
+    case mpm::ShapeKind::ugimp_stretch:
+      return Shape::ugimp_stretch;
+    case mpm::ShapeKind::bspline2:
+      return Shape::bspline2;
+    case mpm::ShapeKind::bspline3:
+      return Shape::bspline3;
+    default:
+      return std::nullopt;
+  }
+}
+
 Method method_of(const SimulationDefinition& d) {
   Method method;
-  method.shape = d.method.shape == mpm::ShapeKind::bspline2 ? Shape::bspline2 : Shape::ugimp;
+  method.shape = shape_of(d.method.shape).value();
   method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
                   : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
                                                                 : Update::usf;
@@ -159,8 +175,7 @@ std::string refused(const SimulationDefinition& d) {
   const mpm::Transfer& transfer = d.method.transfer;
   const Feature features[] = {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
-      {d.method.shape != mpm::ShapeKind::ugimp && d.method.shape != mpm::ShapeKind::bspline2,
-       "method.shape_function other than ugimp and bspline2"},
+      {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
       {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
       {transfer.kind != mpm::TransferKind::flip || transfer.mixes() || transfer.every != 1,
        "method.transfer other than FLIP with a fraction of PIC"},

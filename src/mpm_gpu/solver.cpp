@@ -48,6 +48,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   for (const SetView& set : sets_) count_ += set.count;
   for (int c = 0; c < dim * dim; ++c) gradient_[c].fit(count_);
   for (int k = 0; k < dim && method.update != Update::usf; ++k) next_x_[k].fit(count_);
+  for (int k = 0; k < dim && passes_->domains != nullptr; ++k) domain_[k].fit(count_);
   node_.fit(count_);
   id_room_.fit(count_);
   fault_.fit(count_);
@@ -99,6 +100,7 @@ StepView<T> Solver<T>::view(double dt) {
     particles.x[k] = store_.x[k].data();
     particles.next_x[k] = method_.update == Update::usf ? particles.x[k] : next_x_[k].data();
     particles.v[k] = store_.v[k].data();
+    particles.domain[k] = domain_[k].data();
   }
   for (int c = 0; c < 9; ++c) {
     particles.f[c] = store_.f[c].data();
@@ -127,6 +129,7 @@ void Solver<T>::step(double dt) {
   std::uint8_t* fault = fault_.data();
   run_.for_each("gpu: checks", count_, [=](long i) { fault[i] = 0; });
   const bool halves = method_.update == Update::usavg;
+  if (passes_->domains != nullptr) passes_->domains(run_, now);
   passes_->momentum(run_, now);
   if (method_.update != Update::usl) strain(now, halves ? 0.5 * dt : dt);
   passes_->force(run_, now);
@@ -217,6 +220,7 @@ std::size_t Solver<T>::particle_bytes() {
   std::size_t sum = node_.bytes() + id_room_.bytes() + fault_.bytes() + place_room_.bytes() + room_.bytes();
   store_.each([&](const auto& buffer) { sum += buffer.bytes(); });
   for (const Buffer<T>& one : gradient_) sum += one.bytes();
+  for (const Buffer<T>& one : domain_) sum += one.bytes();
   for (const Buffer<double>& one : next_x_) sum += one.bytes();
   return sum;
 }

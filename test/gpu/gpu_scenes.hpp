@@ -107,6 +107,25 @@ inline mpm::SimulationDefinition column_usavg(mpm::Precision precision) {
   return d;
 }
 
+/// The block of metal with cubic splines.
+inline mpm::SimulationDefinition metal_cubic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = metal(precision);
+  d.method.shape = mpm::ShapeKind::bspline3;
+  return d;
+}
+/// The column with cubic splines, which its walls fold.
+inline mpm::SimulationDefinition column_cubic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column(precision);
+  d.method.shape = mpm::ShapeKind::bspline3;
+  return d;
+}
+/// The column with boxes that stretch, half of its strain after the motion: its boxes are those of the step's start.
+inline mpm::SimulationDefinition column_stretch(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column_usavg(precision);
+  d.method.shape = mpm::ShapeKind::ugimp_stretch;
+  return d;
+}
+
 /// Time in which the fastest wave of the materials at rest crosses 0.3 cells [s].
 inline double step_of(const mpm::SimulationDefinition& d) {
   double fastest = 0.0;

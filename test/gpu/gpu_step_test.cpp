@@ -110,6 +110,13 @@ TEST(GpuStep, StrainLastAgreesInDouble) { expect_agreement<double>(gpu_scenes::b
 TEST(GpuStep, StrainLastAgreesInSingle) { expect_agreement<float>(gpu_scenes::block_usl, 1e-5); }
 TEST(GpuStep, StrainInHalvesAgreesInDouble) { expect_agreement<double>(gpu_scenes::column_usavg, 1e-10); }
 TEST(GpuStep, StrainInHalvesAgreesInSingle) { expect_agreement<float>(gpu_scenes::column_usavg, 1e-5); }
+TEST(GpuStep, CubicSplinesAgreeInDouble) {
+  expect_agreement<double>(gpu_scenes::metal_cubic, 1e-10);
+  expect_agreement<double>(gpu_scenes::column_cubic, 1e-10);
+}
+TEST(GpuStep, CubicSplinesAgreeInSingle) { expect_agreement<float>(gpu_scenes::column_cubic, 1e-5); }
+TEST(GpuStep, StretchingBoxesAgreeInDouble) { expect_agreement<double>(gpu_scenes::column_stretch, 1e-10); }
+TEST(GpuStep, StretchingBoxesAgreeInSingle) { expect_agreement<float>(gpu_scenes::column_stretch, 1e-5); }
 
 // The change of momentum is the sum of the impulses of gravity and walls, each found by itself.
 template <class T>
@@ -134,6 +141,7 @@ TEST(GpuStep, MomentumCloses) {
   expect_closed<double>(gpu_scenes::metal, 1e-10);
   expect_closed<float>(gpu_scenes::metal, 1e-5);
   expect_closed<double>(gpu_scenes::column_usavg, 1e-10);
+  expect_closed<double>(gpu_scenes::column_cubic, 1e-10);
 }
 
 /// All numbers of a run as bytes.
@@ -172,6 +180,7 @@ TEST(GpuStep, OrderOfVisitsDoesNotMatter) {
   expect_same_bits<float>(gpu_scenes::column);
   expect_same_bits<double>(gpu_scenes::two_blocks);
   expect_same_bits<float>(gpu_scenes::column_usavg);
+  expect_same_bits<float>(gpu_scenes::column_cubic);
 }
 
 // Half of the steps here, the rest by the solver from what was written back.

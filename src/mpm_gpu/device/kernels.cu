@@ -26,7 +26,7 @@
 
 #pragma clang force_cuda_host_device begin
 #include "mpm/shape/bspline.hpp"
-#include "mpm/shape/ugimp.hpp"
+#include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #pragma clang force_cuda_host_device end
@@ -66,7 +66,10 @@ void each_law(const std::variant<Laws...>*) {
 template <class T, class Geometry>
 void each_kernel() {
   each_pass<T, Geometry, mpm::Ugimp>();
+  each_pass<T, Geometry, mpm::UgimpStretch>();
   each_pass<T, Geometry, mpm::QuadraticSpline>();
+  each_pass<T, Geometry, mpm::CubicSpline>();
+  (void)&launch<DomainKernel<T, Geometry::kDim>>;
   each_law<T, Geometry>(static_cast<const mpm::Law*>(nullptr));
 }
 

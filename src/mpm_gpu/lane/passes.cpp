@@ -1,7 +1,7 @@
 #include "mpm_gpu/passes.hpp"
 
 #include "mpm/shape/bspline.hpp"
-#include "mpm/shape/ugimp.hpp"
+#include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"
 
@@ -12,6 +12,9 @@ template <class T, class Geometry, template <class> class ShapeClass>
 struct PassesOf {
   static constexpr int kDim = Geometry::kDim;
 
+  static void domains(Executor& run, const StepView<T>& step) {
+    run.for_each("gpu: domains", step.particles.count, DomainKernel<T, kDim>{step});
+  }
   static void momentum(Executor& run, const StepView<T>& step) {
     run.for_each("gpu: momentum to the nodes", step.nodes.nodes, MomentumKernel<T, Geometry, ShapeClass>{step});
   }
@@ -30,16 +33,27 @@ struct PassesOf {
       run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass>{step, set});
     }
   }
-  static constexpr Passes<T> kPasses = {&momentum, &gradient, &force, &move};
+  static constexpr bool kStretches = ShapeClass<mpm::Wide<T>>::kStretches;
+  static constexpr Passes<T> kPasses = {kStretches ? &domains : nullptr, &momentum, &gradient, &force, &move};
 };
 
+template <class T, template <class> class ShapeClass>
+const Passes<T>& of_shape(int dim) {
+  return dim == 3 ? PassesOf<T, mpm::Solid, ShapeClass>::kPasses : PassesOf<T, mpm::PlaneStrain, ShapeClass>::kPasses;
+}
 template <class T>
 const Passes<T>& choose(int dim, Shape shape) {
-  if (shape == Shape::bspline2) {
-    return dim == 3 ? PassesOf<T, mpm::Solid, mpm::QuadraticSpline>::kPasses
-                    : PassesOf<T, mpm::PlaneStrain, mpm::QuadraticSpline>::kPasses;
+  switch (shape) {
+    case Shape::ugimp_stretch:
+      return of_shape<T, mpm::UgimpStretch>(dim);
+    case Shape::bspline2:
+      return of_shape<T, mpm::QuadraticSpline>(dim);
+    case Shape::bspline3:
+      return of_shape<T, mpm::CubicSpline>(dim);
+    case Shape::ugimp:
+      break;
   }
-  return dim == 3 ? PassesOf<T, mpm::Solid, mpm::Ugimp>::kPasses : PassesOf<T, mpm::PlaneStrain, mpm::Ugimp>::kPasses;
+  return of_shape<T, mpm::Ugimp>(dim);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "mpm/kernel/kernels.hpp"
 #include "mpm_gpu/executor.hpp"
 #include "mpm_gpu/views.hpp"
 
@@ -17,11 +18,11 @@ enum class Update : int { usf, usl, usavg };
 template <class T>
 struct Passes {
   using Pass = void (*)(Executor&, const StepView<T>&);
-  Pass domains;   ///< stretch of boxes for this step; null of a shape function that does not stretch
-  Pass momentum;  ///< m, m v and v on nodes, v as walls let it be for the strain
-  Pass gradient;  ///< grad v of particles
-  Pass force;     ///< a, and v of the step's end, by force, gravity and walls
-  Pass move;      ///< v and next x of particles; what has left its cell or the domain
+  Pass domains;      ///< stretch of boxes for this step; null of a shape function that does not stretch
+  Pass momentum[2];  ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
+  Pass gradient;     ///< grad v of particles
+  Pass force;        ///< a, and v of the step's end, by force, gravity and walls
+  Pass move[mpm_kernel::kMotions];  ///< v and next x of particles; what has left its cell or the domain
 };
 
 /// Strain and stress of the particles of one set, by its law.

@@ -30,6 +30,7 @@ struct ParticleStore {
   std::array<Buffer<T>, 9> f;
   std::array<Buffer<T>, 6> tau;
   std::array<Buffer<T>, kMostHistory> history;
+  std::array<Buffer<T>, 9> affine;
   Buffer<std::uint32_t> id;
 
   /// visit(buffer) for each.
@@ -40,6 +41,7 @@ struct ParticleStore {
     for (auto& one : f) visit(one);
     for (auto& one : tau) visit(one);
     for (auto& one : history) visit(one);
+    for (auto& one : affine) visit(one);
     visit(id);
   }
 };
@@ -48,8 +50,9 @@ struct ParticleStore {
 struct Method {
   Shape shape = Shape::ugimp;
   Update update = Update::usf;
-  double flip = 1.0;  ///< fraction of FLIP; the rest is PIC
-  int terms = 1;      ///< number of terms of exp(grad v dt)
+  mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC, or APIC
+  double flip = 1.0;                                   ///< fraction of FLIP; the rest is PIC
+  int terms = 1;                                       ///< number of terms of exp(grad v dt)
 };
 
 /// Impulses on the material since the start [N s], along the grid's axes.
@@ -87,6 +90,7 @@ class Solver {
 
  private:
   void sort();
+  void momentum(const StepView<T>& now) { passes_->momentum[method_.motion == mpm_kernel::kAffine](run_, now); }
   StepView<T> view(double dt);
   /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
   void strain(StepView<T> now, double dt);

@@ -10,6 +10,7 @@
 // code of one lane alone.
 #pragma once
 
+#include "mpm/kernel/kernels.hpp"
 #include "mpm/kernel/wide.hpp"
 #include "mpm_gpu/views.hpp"
 
@@ -47,8 +48,11 @@ void corner_of(const GridView& grid, std::uint64_t key, int (&corner)[3]) {
   }
 }
 
-/// The shape function along each axis around the nearest node.
-template <class T, int Dim, template <class> class ShapeClass>
+using mpm_kernel::Beside;
+
+/// The shape function along each axis around the nearest node, and what stands beside it: its gradient or, for APIC,
+/// its first moments, also over the second.
+template <class T, int Dim, template <class> class ShapeClass, Beside What = Beside::gradient>
 class Stencil {
   using W = mpm::Wide<T>;
 
@@ -59,7 +63,8 @@ class Stencil {
   Stencil(const GridView& grid, const SetView& set, const ParticleView<T>& particles, long p, const int* nearest) {
     for (int k = 0; k < Dim; ++k) {
       const W offset(W::B::place(particles.x[k] + p, 1, grid.origin[k], grid.inverse_cell[k], nearest[k]));
-      const ShapeClass<W> along = shape(grid, set, particles, k, p, offset, nearest[k]);
+      ShapeClass<W> along = shape(grid, set, particles, k, p, offset, nearest[k]);
+      if constexpr (What != Beside::gradient) put_moments(along, offset, 1.0 / grid.inverse_cell[k]);
       for (int n = 0; n < kNodes; ++n) {
         s_[k][n] = along.s[n];
         g_[k][n] = along.g[n];
@@ -72,8 +77,8 @@ class Stencil {
     for (int k = 1; k < Dim; ++k) value *= s_[k][n[k]];
     return value;
   }
-  /// Gradient along axis `of` there [1/m].
-  W gradient(const int* n, int of) const {
+  /// Gradient along axis `of` there [1/m], or what stands in its place.
+  W beside(const int* n, int of) const {
     W value = of == 0 ? g_[0][n[0]] : s_[0][n[0]];
     for (int k = 1; k < Dim; ++k) value *= of == k ? g_[k][n[k]] : s_[k][n[k]];
     return value;
@@ -92,6 +97,22 @@ class Stencil {
       }
       return along;
     }
+  }
+
+  // Moments are those of kernel/weights.hpp, of products that reproduce linear fields: S (x_i - x_p), over D in what is
+  // spread. A spline folded at a wall has no D on the wall, where moments are zero, and a negative one beyond it.
+  static void put_moments(ShapeClass<W>& along, W offset, double cell) {
+    constexpr double kLeastMoment = 1e-10;  // [cells^2]
+    W second(0.0);
+    for (int n = 0; n < kNodes; ++n) {
+      const W arm = (W(n - kNodes / 2) - offset) * W(cell);
+      along.g[n] = along.s[n] * arm;
+      second += along.g[n] * arm;
+    }
+    if (What != Beside::affine) return;
+    const W least(kLeastMoment * cell * cell);
+    second = select(second < W(0.0), min(second, -least), max(second, least));
+    for (int n = 0; n < kNodes; ++n) along.g[n] /= second;
   }
 
   W s_[Dim][kNodes], g_[Dim][kNodes];
@@ -124,8 +145,8 @@ void each_node_of(const StepView<T>& step, long p, Visit&& visit) {
   });
 }
 /// Stencil of a particle.
-template <class T, int Dim, template <class> class ShapeClass>
-Stencil<T, Dim, ShapeClass> stencil_of(const StepView<T>& step, const SetView& set, long p) {
+template <class T, int Dim, template <class> class ShapeClass, Beside What = Beside::gradient>
+Stencil<T, Dim, ShapeClass, What> stencil_of(const StepView<T>& step, const SetView& set, long p) {
   const long node = step.particles.node[p];
   int nearest[3];
   corner_of<Dim>(step.grid, step.nodes.key[node / nodes_of_block(Dim)], nearest);
@@ -136,9 +157,10 @@ Stencil<T, Dim, ShapeClass> stencil_of(const StepView<T>& step, const SetView& s
 
 /// visit(set, particle, stencil, n) for all particles that give to a node, in the order of sets, cells and particles; n
 /// is the node's place in the stencil. `number`: of the node along the axes.
-template <class T, int Dim, template <class> class ShapeClass, class Visit>
+template <class T, int Dim, template <class> class ShapeClass, Beside What = Beside::gradient, class Visit>
 void each_particle_of(const StepView<T>& step, long node, const int* number, Visit&& visit) {
-  constexpr int kNodes = Stencil<T, Dim, ShapeClass>::kNodes, kReach = kNodes / 2;
+  using Weights = Stencil<T, Dim, ShapeClass, What>;
+  constexpr int kNodes = Weights::kNodes, kReach = kNodes / 2;
   const long block = node / nodes_of_block(Dim);
   const Local<Dim> local = local_of<Dim>(node);
   for (int s = 0; s < step.set_count; ++s) {
@@ -155,7 +177,7 @@ void each_particle_of(const StepView<T>& step, long node, const int* number, Vis
       if (at < 0) return;
       const long row = s * step.nodes.nodes + at;
       for (std::uint32_t p = step.nodes.begin[row]; p < step.nodes.end[row]; ++p) {
-        visit(set, p, Stencil<T, Dim, ShapeClass>(step.grid, set, step.particles, p, nearest), n);
+        visit(set, p, Weights(step.grid, set, step.particles, p, nearest), n);
       }
     });
   }

@@ -51,6 +51,7 @@ struct ParticleView {
   T* f[9];            ///< deformation gradient
   T* tau[6];          ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
+  T* affine[9];         ///< APIC: B, sum of S v_c (x_i - x_p)_k [m^2/s]
   T* gradient[9];       ///< gradient of the velocity, in this step [1/s]
   T* domain[3];         ///< stretch of the shape function's box, of the step's start; of one that has it
   std::uint32_t* node;  ///< number of the nearest node in the table

@@ -83,6 +83,7 @@ Method method_of(const SimulationDefinition& d) {
   method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
                   : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
                                                                 : Update::usf;
+  if (d.method.transfer.kind == mpm::TransferKind::apic) method.motion = mpm_kernel::kAffine;
   method.flip = d.method.transfer.flip;
   method.terms = d.method.gradient_terms;
   return method;
@@ -162,6 +163,7 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     copy(set.f, store.f);
     copy(set.tau, store.tau);
     copy(set.history, store.history);
+    copy(set.affine, store.affine);
     for (int p = 0; p < set.size(); ++p) store.id[first + p] = set.id[p];
     first += set.size();
   }
@@ -177,8 +179,9 @@ std::string refused(const SimulationDefinition& d) {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
       {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
       {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {transfer.kind != mpm::TransferKind::flip || transfer.mixes() || transfer.every != 1,
-       "method.transfer other than FLIP with a fraction of PIC"},
+      {transfer.kind != mpm::TransferKind::flip && transfer.kind != mpm::TransferKind::apic,
+       "method.transfer other than flip and apic"},
+      {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
       {d.method.average_dilatation, "method.average_dilatation"},
       {any_shares_stress(d), "method.average_stress"},
       {d.method.damping.any(), "method.damping"},
@@ -241,6 +244,7 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
     copy(store.f, set.f);
     copy(store.tau, set.tau);
     copy(store.history, set.history);
+    copy(store.affine, set.affine);
   }
 }
 

@@ -84,6 +84,7 @@ void Solver<T>::sort() {
   for (auto& one : store_.f) permute(one, room_);
   for (auto& one : store_.tau) permute(one, room_);
   for (auto& one : store_.history) permute(one, room_);
+  for (auto& one : store_.affine) permute(one, room_);
   permute(store_.id, id_room_);
   std::uint32_t* to = node_.data();
   run_.for_each("gpu: sort", count_, [=](long i) { to[i] = node[i]; });
@@ -104,6 +105,7 @@ StepView<T> Solver<T>::view(double dt) {
   }
   for (int c = 0; c < 9; ++c) {
     particles.f[c] = store_.f[c].data();
+    particles.affine[c] = store_.affine[c].data();
     particles.gradient[c] = gradient_[c].data();
   }
   for (int c = 0; c < 6; ++c) particles.tau[c] = store_.tau[c].data();
@@ -130,12 +132,12 @@ void Solver<T>::step(double dt) {
   run_.for_each("gpu: checks", count_, [=](long i) { fault[i] = 0; });
   const bool halves = method_.update == Update::usavg;
   if (passes_->domains != nullptr) passes_->domains(run_, now);
-  passes_->momentum(run_, now);
+  momentum(now);
   if (method_.update != Update::usl) strain(now, halves ? 0.5 * dt : dt);
   passes_->force(run_, now);
-  passes_->move(run_, now);
+  passes_->move[method_.motion](run_, now);
   if (method_.update != Update::usf) {
-    passes_->momentum(run_, now);
+    momentum(now);
     strain(now, halves ? 0.5 * dt : dt);
     for (int k = 0; k < dim_; ++k) store_.x[k].swap(next_x_[k]);
   }

@@ -126,6 +126,21 @@ inline mpm::SimulationDefinition column_stretch(mpm::Precision precision) {
   return d;
 }
 
+/// The falling block with APIC.
+inline mpm::SimulationDefinition block_apic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = falling_block(precision);
+  d.method.transfer.kind = mpm::TransferKind::apic;
+  return d;
+}
+/// The column with APIC and quadratic splines, which have no second moment on its walls; momentum is gathered twice.
+inline mpm::SimulationDefinition column_apic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column_usavg(precision);
+  d.method.shape = mpm::ShapeKind::bspline2;
+  d.method.transfer = {};
+  d.method.transfer.kind = mpm::TransferKind::apic;
+  return d;
+}
+
 /// Time in which the fastest wave of the materials at rest crosses 0.3 cells [s].
 inline double step_of(const mpm::SimulationDefinition& d) {
   double fastest = 0.0;

@@ -44,9 +44,12 @@ __attribute__((global)) void launch(Kernel kernel, long count) {
 template <class T, class Geometry, template <class> class ShapeClass>
 void each_pass() {
   (void)&launch<MomentumKernel<T, Geometry, ShapeClass>>;
+  (void)&launch<MomentumKernel<T, Geometry, ShapeClass, true>>;
   (void)&launch<GradientKernel<T, Geometry::kDim, ShapeClass>>;
   (void)&launch<ForceKernel<T, Geometry, ShapeClass>>;
-  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAffine>>;
 }
 
 /// False for a user's law, which is code of the host, and for Mohr-Coulomb until its return on single numbers does

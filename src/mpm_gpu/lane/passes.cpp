@@ -15,8 +15,9 @@ struct PassesOf {
   static void domains(Executor& run, const StepView<T>& step) {
     run.for_each("gpu: domains", step.particles.count, DomainKernel<T, kDim>{step});
   }
+  template <bool Affine>
   static void momentum(Executor& run, const StepView<T>& step) {
-    run.for_each("gpu: momentum to the nodes", step.nodes.nodes, MomentumKernel<T, Geometry, ShapeClass>{step});
+    run.for_each("gpu: momentum to the nodes", step.nodes.nodes, MomentumKernel<T, Geometry, ShapeClass, Affine>{step});
   }
   static void gradient(Executor& run, const StepView<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
@@ -27,14 +28,20 @@ struct PassesOf {
   static void force(Executor& run, const StepView<T>& step) {
     run.for_each("gpu: force and momentum of nodes", step.nodes.nodes, ForceKernel<T, Geometry, ShapeClass>{step});
   }
+  template <mpm_kernel::Motion Kind>
   static void move(Executor& run, const StepView<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
       const SetView& set = step.sets[s];
-      run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass>{step, set});
+      run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass, Kind>{step, set});
     }
   }
   static constexpr bool kStretches = ShapeClass<mpm::Wide<T>>::kStretches;
-  static constexpr Passes<T> kPasses = {kStretches ? &domains : nullptr, &momentum, &gradient, &force, &move};
+  static constexpr Passes<T> kPasses = {
+      kStretches ? &domains : nullptr,
+      {&momentum<false>, &momentum<true>},
+      &gradient,
+      &force,
+      {&move<mpm_kernel::kIncrement>, &move<mpm_kernel::kAdopt>, &move<mpm_kernel::kAffine>}};
 };
 
 template <class T, template <class> class ShapeClass>

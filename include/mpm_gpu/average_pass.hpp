@@ -22,7 +22,7 @@ struct AverageKernel {
 
   StepView<T> step;
   mpm::FlowingArrays<T> arrays;
-  int number;  ///< of the set
+  int number;  ///< number of the set
   double mass;
 
   /// visit(particle) for those of the cell above a node.

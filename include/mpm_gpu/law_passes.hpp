@@ -33,13 +33,13 @@ struct LawKernel {
     } gradients;
     for (int c = 0; c < Geometry::kDim * Geometry::kDim; ++c) gradients.l[c] = gradient[c] + p;
     const int good = mpm::Stress<Geometry, T>::template update<LawType>(set, p, 1, gradients, settings, nullptr);
-    fault[p] = good == 1 ? 0 : kInverted;
+    if (good != 1) fault[p] |= kInverted;
   }
 
   static void run(Executor& run, const StepView<T>& step, int number, const void* law) {
     const SetView& set = step.sets[number];
     LawKernel kernel{solver_view(step.particles, set, Geometry::kDim),
-                     {step.settings.dt, step.settings.terms, false},
+                     {step.settings.strain_dt, step.settings.terms, false},
                      {},
                      step.particles.fault,
                      set.first};

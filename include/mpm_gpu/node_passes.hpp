@@ -20,7 +20,8 @@ unsigned held_axes(const GridView& grid, const int* number) {
   return held;
 }
 
-template <class T, class Geometry, template <class> class ShapeClass>
+/// `Affine`: with APIC's affine field, v + B D^-1 (x_i - x_p).
+template <class T, class Geometry, template <class> class ShapeClass, bool Affine = false>
 struct MomentumKernel {
   static constexpr int kDim = Geometry::kDim;
   StepView<T> step;
@@ -30,11 +31,17 @@ struct MomentumKernel {
     int number[3];
     number_along<T, kDim>(step, node, number);
     double mass = 0.0, momentum[kDim] = {};
-    each_particle_of<T, kDim, ShapeClass>(
-        step, node, number, [&](const SetView& set, long p, const Stencil<T, kDim, ShapeClass>& stencil, const int* n) {
+    each_particle_of<T, kDim, ShapeClass, Affine ? Beside::affine : Beside::gradient>(
+        step, node, number, [&](const SetView& set, long p, const auto& stencil, const int* n) {
           const W part = W(set.mass) * stencil.value(n);
           mass += part.v;
-          for (int c = 0; c < kDim; ++c) momentum[c] += (part * W::load(step.particles.v[c] + p)).v;
+          W sum[kDim];
+          for (int c = 0; c < kDim; ++c) sum[c] = part * W::load(step.particles.v[c] + p);
+          for (int k = 0; Affine && k < kDim; ++k) {
+            const W arm = W(set.mass) * stencil.beside(n, k);
+            for (int c = 0; c < kDim; ++c) sum[c] += arm * W::load(step.particles.affine[c * kDim + k] + p);
+          }
+          for (int c = 0; c < kDim; ++c) momentum[c] += sum[c].v;
         });
     const NodeView& to = step.nodes;
     const bool carries = mass > step.grid.least_mass;
@@ -60,20 +67,18 @@ struct ForceKernel {
     const double mass = to.mass[node], dt = step.settings.dt;
     double force[kDim] = {};
     if (mass > step.grid.least_mass) {
-      each_particle_of<T, kDim, ShapeClass>(
-          step, node, number,
-          [&](const SetView& set, long p, const Stencil<T, kDim, ShapeClass>& stencil, const int* n) {
-            const auto stress =
-                Geometry::load_symmetric(mpm::WideReader<T>{step.particles.tau, 1}, static_cast<int>(p));
-            W sum[kDim] = {};
-            for (int k = 0; k < kDim; ++k) {
-              W column[kDim];
-              Geometry::column(stress, k, column);
-              const W slope = W(-set.mass) * stencil.gradient(n, k);
-              for (int c = 0; c < kDim; ++c) sum[c] += column[c] * slope;
-            }
-            for (int c = 0; c < kDim; ++c) force[c] += sum[c].v;
-          });
+      const auto add = [&](const SetView& set, long p, const auto& stencil, const int* n) {
+        const auto stress = Geometry::load_symmetric(mpm::WideReader<T>{step.particles.tau, 1}, static_cast<int>(p));
+        W sum[kDim] = {};
+        for (int k = 0; k < kDim; ++k) {
+          W column[kDim];
+          Geometry::column(stress, k, column);
+          const W slope = W(-set.mass) * stencil.beside(n, k);
+          for (int c = 0; c < kDim; ++c) sum[c] += column[c] * slope;
+        }
+        for (int c = 0; c < kDim; ++c) force[c] += sum[c].v;
+      };
+      each_particle_of<T, kDim, ShapeClass>(step, node, number, add);
     }
     const bool carries = mass > step.grid.least_mass;
     const unsigned held = held_axes<kDim>(step.grid, number);

@@ -13,7 +13,8 @@ mpm_kernel::SetView<T> solver_view(const ParticleView<T>& particles, const SetVi
   mpm_kernel::SetView<T> view{};
   view.mass = set.mass;
   for (int k = 0; k < dim; ++k) {
-    view.x[k] = view.next_x[k] = particles.x[k];
+    view.x[k] = particles.x[k];
+    view.next_x[k] = particles.next_x[k];
     view.v[k] = particles.v[k];
   }
   for (int c = 0; c < 9; ++c) view.f[c] = particles.f[c];
@@ -21,6 +22,16 @@ mpm_kernel::SetView<T> solver_view(const ParticleView<T>& particles, const SetVi
   for (int h = 0; h < kMostHistory; ++h) view.history[h] = particles.history[h];
   return view;
 }
+
+/// Notes the stretch that boxes of the shape function have in this step.
+template <class T, int Dim>
+struct DomainKernel {
+  StepView<T> step;
+
+  void operator()(long p) const {
+    for (int k = 0; k < Dim; ++k) step.particles.domain[k][p] = step.particles.f[k * Dim + k][p];
+  }
+};
 
 template <class T, int Dim, template <class> class ShapeClass>
 struct GradientKernel {
@@ -32,9 +43,9 @@ struct GradientKernel {
     const long p = set.first + i;
     const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
     W l[Dim][Dim] = {};
-    each_node_of<T, Dim>(step, p, [&](long node, const int* n) {
+    each_node_of<Dim, Stencil<T, Dim, ShapeClass>::kNodes>(step, p, [&](long node, const int* n) {
       W slope[Dim];
-      for (int k = 0; k < Dim; ++k) slope[k] = stencil.gradient(n, k);
+      for (int k = 0; k < Dim; ++k) slope[k] = stencil.beside(n, k);
       for (int c = 0; c < Dim; ++c) {
         const W v(step.nodes.velocity[c * step.nodes.nodes + node]);
         for (int k = 0; k < Dim; ++k) l[c][k] += v * slope[k];
@@ -46,7 +57,9 @@ struct GradientKernel {
   }
 };
 
-template <class T, int Dim, template <class> class ShapeClass>
+/// `Kind`: the particle's velocity gains the grid's acceleration, or becomes the grid's, with its first moment B or
+/// not.
+template <class T, int Dim, template <class> class ShapeClass, mpm_kernel::Motion Kind>
 struct MoveKernel {
   StepView<T> step;
   SetView set;
@@ -54,23 +67,28 @@ struct MoveKernel {
   void operator()(long i) const {
     using W = mpm::Wide<T>;
     const long p = set.first + i;
-    const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
-    W velocity[Dim] = {}, acceleration[Dim] = {};
-    each_node_of<T, Dim>(step, p, [&](long node, const int* n) {
+    constexpr bool kAffine = Kind == mpm_kernel::kAffine, kGains = Kind == mpm_kernel::kIncrement;
+    constexpr Beside kWith = kAffine ? Beside::moment : Beside::gradient;
+    const auto stencil = stencil_of<T, Dim, ShapeClass, kWith>(step, set, p);
+    W velocity[Dim] = {}, acceleration[Dim] = {}, b[Dim][Dim] = {};
+    each_node_of<Dim, Stencil<T, Dim, ShapeClass>::kNodes>(step, p, [&](long node, const int* n) {
       const W value = stencil.value(n);
       for (int c = 0; c < Dim; ++c) {
-        velocity[c] += value * W(step.nodes.velocity[c * step.nodes.nodes + node]);
-        acceleration[c] += value * W(step.nodes.acceleration[c * step.nodes.nodes + node]);
+        const W v(step.nodes.velocity[c * step.nodes.nodes + node]);
+        velocity[c] += value * v;
+        if (kGains) acceleration[c] += value * W(step.nodes.acceleration[c * step.nodes.nodes + node]);
+        for (int k = 0; kAffine && k < Dim; ++k) b[c][k] += v * stencil.beside(n, k);
       }
     });
+    for (int c = 0; kAffine && c < Dim * Dim; ++c) b[c / Dim][c % Dim].store(step.particles.affine[c] + p);
     const mpm_kernel::SetView<T> view = solver_view(step.particles, set, Dim);
     mpm_kernel::MoveSettings settings{step.settings.dt, step.settings.flip, false};
-    mpm::Advance<T, Dim, mpm_kernel::kIncrement, false, false> advance(view, settings);
+    mpm::Advance<T, Dim, Kind, false, false> advance(view, settings);
     std::uint8_t fault = step.particles.fault[p];
     for (int c = 0; c < Dim; ++c) {
       const int before = nearest_node(in_cells(step.grid, c, step.particles.x[c][p]));
       advance.template particles<false, false>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
-      const double cells = in_cells(step.grid, c, step.particles.x[c][p]);
+      const double cells = in_cells(step.grid, c, step.particles.next_x[c][p]);
       if (!(cells >= set.lowest[c] && cells <= set.highest[c])) {
         fault |= kOutside;
       } else if (nearest_node(cells) != before) {

@@ -5,21 +5,24 @@
 
 #include <cstddef>
 
+#include "mpm/kernel/kernels.hpp"
 #include "mpm_gpu/executor.hpp"
 #include "mpm_gpu/views.hpp"
 
 namespace mpm_gpu {
 
-enum class Shape : int { ugimp, bspline2 };
+enum class Shape : int { ugimp, ugimp_stretch, bspline2, bspline3 };
+enum class Update : int { usf, usl, usavg };
 
-/// The passes of a step (USF) in their order; the law's is between `gradient` and `force`.
+/// The passes of a step, which Solver puts in their order.
 template <class T>
 struct Passes {
   using Pass = void (*)(Executor&, const StepView<T>&);
-  Pass momentum;  ///< m, m v and v on nodes, v as walls let it be for the strain
-  Pass gradient;  ///< grad v of particles
-  Pass force;     ///< a, and v of the step's end, by force, gravity and walls
-  Pass move;      ///< v and x of particles; what has left its cell or the domain
+  Pass domains;      ///< stretch of boxes for this step; null of a shape function that does not stretch
+  Pass momentum[2];  ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
+  Pass gradient;     ///< grad v of particles
+  Pass force;        ///< a, and v of the step's end, by force, gravity and walls
+  Pass move[mpm_kernel::kMotions];  ///< v and next x of particles; what has left its cell or the domain
 };
 
 /// Strain and stress of the particles of one set, by its law.

@@ -1,4 +1,4 @@
-// Steps of a run on the device: its memory, and the passes in their order. One step (USF):
+// Steps of a run on the device: its memory, and the passes in their order. One step, strain first (USF):
 //
 //   sort          particles by cell, the table of blocks        where a particle has left its cell, and at first
 //   (average)     tau, F                    <-  particles       a cell at a time, where a body's stress is averaged
@@ -7,6 +7,9 @@
 //   (the law)     F, tau, history           <-  grad v dt       a set at a time
 //   force         a, v of nodes             <-  particles       a gather by nodes; gravity and walls
 //   move          v, x of particles         <-  v, a            a gather by particles
+//
+// Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
+// start: particles move to other places, which become theirs at the end. USAVG does half of the strain at each time.
 //
 // Nothing is allocated in a step after make_room(), which is called between sync periods.
 #pragma once
@@ -29,6 +32,7 @@ struct ParticleStore {
   std::array<Buffer<T>, 6> tau;
   std::array<Buffer<T>, kMostHistory> history;
   Buffer<double> strain_before;
+  std::array<Buffer<T>, 9> affine;
   Buffer<std::uint32_t> id;
 
   /// visit(buffer) for each.
@@ -40,8 +44,18 @@ struct ParticleStore {
     for (auto& one : tau) visit(one);
     for (auto& one : history) visit(one);
     visit(strain_before);
+    for (auto& one : affine) visit(one);
     visit(id);
   }
+};
+
+/// Choices of method of a scene.
+struct Method {
+  Shape shape = Shape::ugimp;
+  Update update = Update::usf;
+  mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC, or APIC
+  double flip = 1.0;                                   ///< fraction of FLIP; the rest is PIC
+  int terms = 1;                                       ///< number of terms of exp(grad v dt)
 };
 
 /// Impulses on the material since the start [N s], along the grid's axes.
@@ -63,8 +77,8 @@ class Solver {
     std::size_t index;
     const void* law;
   };
-  Solver(const GridView& grid, int dim, Shape shape, double flip, int terms, std::vector<SetView> sets,
-         std::vector<LawOfSet> laws, ParticleStore<T> particles, Executor executor);
+  Solver(const GridView& grid, int dim, const Method& method, std::vector<SetView> sets, std::vector<LawOfSet> laws,
+         ParticleStore<T> particles, Executor executor);
 
   /// Fits the memory to where the particles are; between sync periods.
   void make_room();
@@ -91,7 +105,10 @@ class Solver {
  private:
   void sort();
   void average(const StepView<T>& now);
+  void momentum(const StepView<T>& now) { passes_->momentum[method_.motion == mpm_kernel::kAffine](run_, now); }
   StepView<T> view(double dt);
+  /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
+  void strain(StepView<T> now, double dt);
   void check();
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
@@ -121,8 +138,7 @@ class Solver {
 
   GridView grid_;
   int dim_;
-  double flip_;
-  int terms_;
+  Method method_;
   std::vector<SetView> sets_;
   std::vector<LawOfSet> laws_;
   ParticleStore<T> store_;
@@ -132,7 +148,9 @@ class Solver {
   std::vector<RatePass<T>> rate_passes_;
   CellTable cells_;
   long count_ = 0;
+  std::array<Buffer<double>, 3> next_x_;  ///< empty with USF
   std::array<Buffer<T>, 9> gradient_;
+  std::array<Buffer<T>, 3> domain_;  ///< empty of a shape function that does not stretch
   Buffer<std::uint32_t> node_, id_room_;
   Buffer<std::uint8_t> fault_;
   Buffer<double> place_room_;

@@ -46,13 +46,16 @@ struct SetView {
 template <class T>
 struct ParticleView {
   long count;
-  double* x[3];  ///< [m]
-  T* v[3];       ///< [m/s]
-  T* f[9];       ///< deformation gradient
-  T* tau[6];     ///< Kirchhoff stress over initial density [J/kg]
+  double* x[3];       ///< [m]
+  double* next_x[3];  ///< after the motion: x itself where no strain follows [m]
+  T* v[3];            ///< [m/s]
+  T* f[9];            ///< deformation gradient
+  T* tau[6];          ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   double* strain_before;  ///< plastic strain at the start of the step before; null where no stress is averaged
+  T* affine[9];           ///< APIC: B, sum of S v_c (x_i - x_p)_k [m^2/s]
   T* gradient[9];         ///< gradient of the velocity, in this step [1/s]
+  T* domain[3];           ///< stretch of the shape function's box, of the step's start; of one that has it
   std::uint32_t* node;    ///< number of the nearest node in the table
   std::uint8_t* fault;    ///< bits of Fault, in this step
 };
@@ -75,9 +78,10 @@ struct NodeView {
 };
 
 struct StepSettings {
-  double dt;    ///< [s]
-  double flip;  ///< fraction of FLIP; the rest is PIC
-  int terms;    ///< number of terms of exp(grad v dt)
+  double dt;         ///< [s]
+  double strain_dt;  ///< time of one update of strain: half of dt where there are two [s]
+  double flip;       ///< fraction of FLIP; the rest is PIC
+  int terms;         ///< number of terms of exp(grad v strain_dt)
 };
 
 template <class T>

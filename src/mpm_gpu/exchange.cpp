@@ -1,6 +1,7 @@
 #include "mpm_gpu/exchange.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "mpm/kernel/kernels.hpp"
@@ -55,6 +56,33 @@ GridView view_of(const SimulationDefinition& d) {
   }
   view.wall_layers = mpm::traits_of(d.method.shape).wall_layers();
   return view;
+}
+
+std::optional<Shape> shape_of(mpm::ShapeKind kind) {
+  switch (kind) {
+    case mpm::ShapeKind::ugimp:
+      return Shape::ugimp;
+    case mpm::ShapeKind::ugimp_stretch:
+      return Shape::ugimp_stretch;
+    case mpm::ShapeKind::bspline2:
+      return Shape::bspline2;
+    case mpm::ShapeKind::bspline3:
+      return Shape::bspline3;
+    default:
+      return std::nullopt;
+  }
+}
+
+Method method_of(const SimulationDefinition& d) {
+  Method method;
+  method.shape = shape_of(d.method.shape).value();
+  method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
+                  : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
+                                                                : Update::usf;
+  if (d.method.transfer.kind == mpm::TransferKind::apic) method.motion = mpm_kernel::kAffine;
+  method.flip = d.method.transfer.flip;
+  method.terms = d.method.gradient_terms;
+  return method;
 }
 
 const mpm::DeformableBody& body_of(const SimulationDefinition& d, const std::string& name) {
@@ -144,6 +172,7 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
       store.strain_before.fit(count);
       for (int p = 0; p < set.size(); ++p) store.strain_before[first + p] = (*before)[p];
     }
+    copy(set.affine, store.affine);
     for (int p = 0; p < set.size(); ++p) store.id[first + p] = set.id[p];
     first += set.size();
   }
@@ -157,11 +186,11 @@ std::string refused(const SimulationDefinition& d) {
   const mpm::Transfer& transfer = d.method.transfer;
   const Feature features[] = {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
-      {d.method.shape != mpm::ShapeKind::ugimp && d.method.shape != mpm::ShapeKind::bspline2,
-       "method.shape_function other than ugimp and bspline2"},
-      {d.method.update != mpm::UpdateScheme::usf, "method.update other than usf"},
-      {transfer.kind != mpm::TransferKind::flip || transfer.mixes() || transfer.every != 1,
-       "method.transfer other than FLIP with a fraction of PIC"},
+      {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
+      {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
+      {transfer.kind != mpm::TransferKind::flip && transfer.kind != mpm::TransferKind::apic,
+       "method.transfer other than flip and apic"},
+      {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
       {d.method.average_dilatation, "method.average_dilatation"},
       {d.method.damping.any(), "method.damping"},
       {any_user_law(d), "a law of a user's program"},
@@ -196,9 +225,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
             view.least_mass = least_mass(sets);
             return view;
           }(),
-          dimensions(definition.geometry),
-          definition.method.shape == mpm::ShapeKind::bspline2 ? Shape::bspline2 : Shape::ugimp,
-          definition.method.transfer.flip, definition.method.gradient_terms, views_of(sets), pointers_to<T>(laws_),
+          dimensions(definition.geometry), method_of(definition), views_of(sets), pointers_to<T>(laws_),
           store_of<T>(sets), executor) {}
 
 template <class T>
@@ -227,6 +254,7 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
     if (auto* before = strain_before(set)) {
       for (std::size_t p = 0; p < count; ++p) (*before)[p] = store.strain_before[from_where[p]];
     }
+    copy(store.affine, set.affine);
   }
 }
 

@@ -39,17 +39,16 @@ typename Solver<T>::Momentum& Solver<T>::Momentum::operator+=(const Momentum& ot
 }
 
 template <class T>
-Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int terms, std::vector<SetView> sets,
+Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vector<SetView> sets,
                   std::vector<LawOfSet> laws, ParticleStore<T> particles, Executor executor)
     : grid_(grid),
       dim_(dim),
-      flip_(flip),
-      terms_(terms),
+      method_(method),
       sets_(std::move(sets)),
       laws_(std::move(laws)),
       store_(std::move(particles)),
       run_(executor),
-      passes_(&passes(dim, shape, T())),
+      passes_(&passes(dim, method.shape, T())),
       cells_(grid, dim) {
   for (const LawOfSet& law : laws_) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
@@ -60,6 +59,8 @@ Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int t
   }
   for (const SetView& set : sets_) count_ += set.count;
   for (int c = 0; c < dim * dim; ++c) gradient_[c].fit(count_);
+  for (int k = 0; k < dim && method.update != Update::usf; ++k) next_x_[k].fit(count_);
+  for (int k = 0; k < dim && passes_->domains != nullptr; ++k) domain_[k].fit(count_);
   node_.fit(count_);
   id_room_.fit(count_);
   fault_.fit(count_);
@@ -97,6 +98,7 @@ void Solver<T>::sort() {
   for (auto& one : store_.tau) permute(one, room_);
   for (auto& one : store_.history) permute(one, room_);
   permute(store_.strain_before, place_room_);
+  for (auto& one : store_.affine) permute(one, room_);
   permute(store_.id, id_room_);
   std::uint32_t* to = node_.data();
   run_.for_each("gpu: sort", count_, [=](long i) { to[i] = node[i]; });
@@ -111,10 +113,13 @@ StepView<T> Solver<T>::view(double dt) {
   particles.count = count_;
   for (int k = 0; k < 3; ++k) {
     particles.x[k] = store_.x[k].data();
+    particles.next_x[k] = method_.update == Update::usf ? particles.x[k] : next_x_[k].data();
     particles.v[k] = store_.v[k].data();
+    particles.domain[k] = domain_[k].data();
   }
   for (int c = 0; c < 9; ++c) {
     particles.f[c] = store_.f[c].data();
+    particles.affine[c] = store_.affine[c].data();
     particles.gradient[c] = gradient_[c].data();
   }
   for (int c = 0; c < 6; ++c) particles.tau[c] = store_.tau[c].data();
@@ -130,7 +135,7 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.held = nodal_[3].data();
   view.sets = sets_.data();
   view.set_count = static_cast<int>(sets_.size());
-  view.settings = {dt, flip_, terms_};
+  view.settings = {dt, dt, method_.flip, method_.terms};
   return view;
 }
 
@@ -138,12 +143,20 @@ template <class T>
 void Solver<T>::step(double dt) {
   if (must_sort_) sort();
   const StepView<T> now = view(dt);
+  std::uint8_t* fault = fault_.data();
+  run_.for_each("gpu: checks", count_, [=](long i) { fault[i] = 0; });
+  const bool halves = method_.update == Update::usavg;
+  if (passes_->domains != nullptr) passes_->domains(run_, now);
+  momentum(now);
   average(now);
-  passes_->momentum(run_, now);
-  passes_->gradient(run_, now);
-  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
+  if (method_.update != Update::usl) strain(now, halves ? 0.5 * dt : dt);
   passes_->force(run_, now);
-  passes_->move(run_, now);
+  passes_->move[method_.motion](run_, now);
+  if (method_.update != Update::usf) {
+    momentum(now);
+    strain(now, halves ? 0.5 * dt : dt);
+    for (int k = 0; k < dim_; ++k) store_.x[k].swap(next_x_[k]);
+  }
   account(dt);
   ++steps_;
   check();
@@ -155,6 +168,13 @@ void Solver<T>::average(const StepView<T>& now) {
     if (!sets_[s].averages) continue;
     average_pass(dim_, laws_[s].index, T())(run_, now, static_cast<int>(s), laws_[s].law);
   }
+}
+
+template <class T>
+void Solver<T>::strain(StepView<T> now, double dt) {
+  now.settings.strain_dt = dt;
+  passes_->gradient(run_, now);
+  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
 }
 
 template <class T>
@@ -261,6 +281,8 @@ std::size_t Solver<T>::particle_bytes() {
   std::size_t sum = node_.bytes() + id_room_.bytes() + fault_.bytes() + place_room_.bytes() + room_.bytes();
   store_.each([&](const auto& buffer) { sum += buffer.bytes(); });
   for (const Buffer<T>& one : gradient_) sum += one.bytes();
+  for (const Buffer<T>& one : domain_) sum += one.bytes();
+  for (const Buffer<double>& one : next_x_) sum += one.bytes();
   return sum;
 }
 

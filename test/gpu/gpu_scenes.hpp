@@ -94,6 +94,53 @@ inline mpm::SimulationDefinition two_blocks(mpm::Precision precision) {
   return d;
 }
 
+/// The falling block, its strain updated last.
+inline mpm::SimulationDefinition block_usl(mpm::Precision precision) {
+  mpm::SimulationDefinition d = falling_block(precision);
+  d.method.update = mpm::UpdateScheme::usl;
+  return d;
+}
+/// The column, its strain updated half first and half last; a little of PIC.
+inline mpm::SimulationDefinition column_usavg(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column(precision);
+  d.method.update = mpm::UpdateScheme::usavg;
+  return d;
+}
+
+/// The block of metal with cubic splines.
+inline mpm::SimulationDefinition metal_cubic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = metal(precision);
+  d.method.shape = mpm::ShapeKind::bspline3;
+  return d;
+}
+/// The column with cubic splines, which its walls fold.
+inline mpm::SimulationDefinition column_cubic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column(precision);
+  d.method.shape = mpm::ShapeKind::bspline3;
+  return d;
+}
+/// The column with boxes that stretch, half of its strain after the motion: its boxes are those of the step's start.
+inline mpm::SimulationDefinition column_stretch(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column_usavg(precision);
+  d.method.shape = mpm::ShapeKind::ugimp_stretch;
+  return d;
+}
+
+/// The falling block with APIC.
+inline mpm::SimulationDefinition block_apic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = falling_block(precision);
+  d.method.transfer.kind = mpm::TransferKind::apic;
+  return d;
+}
+/// The column with APIC and quadratic splines, which have no second moment on its walls; momentum is gathered twice.
+inline mpm::SimulationDefinition column_apic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column_usavg(precision);
+  d.method.shape = mpm::ShapeKind::bspline2;
+  d.method.transfer = {};
+  d.method.transfer.kind = mpm::TransferKind::apic;
+  return d;
+}
+
 /// Time in which the fastest wave of the materials at rest crosses 0.3 cells [s].
 inline double step_of(const mpm::SimulationDefinition& d) {
   double fastest = 0.0;

@@ -137,7 +137,7 @@ TEST(GpuSimulation, CheckpointsGoFromOneToTheOther) {
   }
 }
 
-// What is read between two sync points changes nothing that follows.
+// Reading between two sync points changes nothing that follows.
 TEST(GpuSimulation, ReadingChangesNothing) {
   Simulation quiet(scene(gpu_scenes::column), options(true)), read(scene(gpu_scenes::column), options(true));
   for (int i = 0; i < kPeriods; ++i) {

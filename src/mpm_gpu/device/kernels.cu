@@ -28,7 +28,7 @@ extern "C" inline __device__ double sqrt(double x) { return __builtin_sqrt(x); }
 
 #pragma clang force_cuda_host_device begin
 #include "mpm/shape/bspline.hpp"
-#include "mpm/shape/ugimp.hpp"
+#include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #pragma clang force_cuda_host_device end
@@ -46,9 +46,12 @@ __attribute__((global)) void launch(Kernel kernel, long count) {
 template <class T, class Geometry, template <class> class ShapeClass>
 void each_pass() {
   (void)&launch<MomentumKernel<T, Geometry, ShapeClass>>;
+  (void)&launch<MomentumKernel<T, Geometry, ShapeClass, true>>;
   (void)&launch<GradientKernel<T, Geometry::kDim, ShapeClass>>;
   (void)&launch<ForceKernel<T, Geometry, ShapeClass>>;
-  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAffine>>;
 }
 
 /// False for a user's law, which is code of the host.
@@ -69,7 +72,10 @@ void each_law(const std::variant<Laws...>*) {
 template <class T, class Geometry>
 void each_kernel() {
   each_pass<T, Geometry, mpm::Ugimp>();
+  each_pass<T, Geometry, mpm::UgimpStretch>();
   each_pass<T, Geometry, mpm::QuadraticSpline>();
+  each_pass<T, Geometry, mpm::CubicSpline>();
+  (void)&launch<DomainKernel<T, Geometry::kDim>>;
   each_law<T, Geometry>(static_cast<const mpm::Law*>(nullptr));
 }
 

@@ -98,4 +98,60 @@ struct ForceKernel {
   }
 };
 
+/// The velocity of which increments are found: of the step's start (XPIC), in which a wall's nodes rest, or of its end
+/// (FMPM). Source: method reference 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist (2021).
+template <class T, int Dim>
+struct FirstIncrementKernel {
+  StepView<T> step;
+
+  void operator()(long node) const {
+    const NodeView& to = step.nodes;
+    int number[3];
+    number_along<T, Dim>(step, node, number);
+    const double mass = to.mass[node];
+    const bool carries = mass > step.grid.least_mass;
+    const unsigned held = held_axes<Dim>(step.grid, number);
+    for (int c = 0; c < Dim; ++c) {
+      const long at = c * to.nodes + node;
+      const double found = !step.settings.from_start ? to.velocity[at] : carries ? to.momentum[at] / mass : 0.0;
+      to.increment[at] = (held >> c & 1U) != 0 ? 0.0 : found;
+    }
+  }
+};
+
+/// The next increment, dv - S+ S dv: what particles have of the one before it, gathered, is taken from that. Walls hold
+/// theirs.
+template <class T, int Dim, template <class> class ShapeClass>
+struct IncrementKernel {
+  StepView<T> step;
+
+  void operator()(long node) const {
+    using W = mpm::Wide<T>;
+    const NodeView& to = step.nodes;
+    int number[3];
+    number_along<T, Dim>(step, node, number);
+    const double mass = to.mass[node];
+    if (!(mass > step.grid.least_mass)) return;  // zero from the first
+    double momentum[Dim] = {};
+    each_particle_of<T, Dim, ShapeClass>(step, node, number,
+                                         [&](const SetView& set, long p, const auto& stencil, const int* n) {
+                                           const W part = W(set.mass) * stencil.value(n);
+                                           for (int c = 0; c < Dim; ++c)
+                                             momentum[c] += (part * W::load(step.particles.gradient[c] + p)).v;
+                                         });
+    const unsigned held = held_axes<Dim>(step.grid, number);
+    for (int c = 0; c < Dim; ++c) {
+      const long at = c * to.nodes + node;
+      const double next = to.increment[at] - momentum[c] / mass;
+      if ((held >> c & 1U) != 0) {
+        to.increment[at] = 0.0;
+        to.held[at] -= mass * next;
+      } else {
+        to.increment[at] = next;
+        to.velocity[at] += next;
+      }
+    }
+  }
+};
+
 }  // namespace mpm_gpu

@@ -50,7 +50,9 @@ struct ParticleStore {
 struct Method {
   Shape shape = Shape::ugimp;
   Update update = Update::usf;
-  mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC, or APIC
+  mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC; XPIC and FMPM; or APIC
+  int order = 1;                                       ///< of XPIC and FMPM
+  bool from_start = false;                             ///< XPIC: increments are of the velocity at the step's start
   double flip = 1.0;                                   ///< fraction of FLIP; the rest is PIC
   int terms = 1;                                       ///< number of terms of exp(grad v dt)
 };
@@ -94,6 +96,8 @@ class Solver {
   StepView<T> view(double dt);
   /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
   void strain(StepView<T> now, double dt);
+  /// Adds the increments of XPIC and FMPM to the velocity of the nodes.
+  void filter(const StepView<T>& now);
   void check();
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
@@ -134,6 +138,7 @@ class Solver {
   Buffer<double> place_room_;
   Buffer<T> room_;
   Buffer<double> mass_, nodal_[4];
+  Buffer<double> increment_;  ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
   Buffer<Momentum> of_momentum_;

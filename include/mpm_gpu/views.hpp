@@ -72,6 +72,7 @@ struct NodeView {
   double* momentum;            ///< [N s]
   double* velocity;            ///< [m/s]
   double* acceleration;        ///< [m/s^2]
+  double* increment;           ///< of XPIC and FMPM, the one at work [m/s]
   double* held;                ///< impulse that walls give in a step [N s]
 };
 
@@ -79,6 +80,7 @@ struct StepSettings {
   double dt;         ///< [s]
   double strain_dt;  ///< time of one update of strain: half of dt where there are two [s]
   double flip;       ///< fraction of FLIP; the rest is PIC
+  bool from_start;   ///< XPIC: increments are of the velocity at the step's start
   int terms;         ///< number of terms of exp(grad v strain_dt)
 };
 

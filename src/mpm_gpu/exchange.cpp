@@ -83,8 +83,15 @@ Method method_of(const SimulationDefinition& d) {
   method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
                   : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
                                                                 : Update::usf;
-  if (d.method.transfer.kind == mpm::TransferKind::apic) method.motion = mpm_kernel::kAffine;
-  method.flip = d.method.transfer.flip;
+  const mpm::Transfer& transfer = d.method.transfer;
+  method.flip = transfer.flip;
+  if (transfer.kind == mpm::TransferKind::apic) {
+    method.motion = mpm_kernel::kAffine;
+  } else if (transfer.kind != mpm::TransferKind::flip) {
+    method.motion = mpm_kernel::kAdopt;
+    method.order = transfer.order;
+    method.from_start = transfer.kind == mpm::TransferKind::xpic;
+  }
   method.terms = d.method.gradient_terms;
   return method;
 }
@@ -179,8 +186,6 @@ std::string refused(const SimulationDefinition& d) {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
       {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
       {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {transfer.kind != mpm::TransferKind::flip && transfer.kind != mpm::TransferKind::apic,
-       "method.transfer other than flip and apic"},
       {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
       {d.method.average_dilatation, "method.average_dilatation"},
       {any_shares_stress(d), "method.average_stress"},

@@ -122,6 +122,14 @@ TEST(GpuStep, AffineTransferAgreesInDouble) {
   expect_agreement<double>(gpu_scenes::column_apic, 1e-10);
 }
 TEST(GpuStep, AffineTransferAgreesInSingle) { expect_agreement<float>(gpu_scenes::column_apic, 1e-5); }
+TEST(GpuStep, IncrementsAgreeInDouble) {
+  expect_agreement<double>(gpu_scenes::blocks_xpic, 1e-10);
+  expect_agreement<double>(gpu_scenes::column_fmpm, 1e-10);
+}
+TEST(GpuStep, IncrementsAgreeInSingle) {
+  expect_agreement<float>(gpu_scenes::blocks_xpic, 1e-5);
+  expect_agreement<float>(gpu_scenes::column_fmpm, 1e-5);
+}
 
 // The change of momentum is the sum of the impulses of gravity and walls, each found by itself.
 template <class T>
@@ -148,6 +156,7 @@ TEST(GpuStep, MomentumCloses) {
   expect_closed<double>(gpu_scenes::column_usavg, 1e-10);
   expect_closed<double>(gpu_scenes::column_cubic, 1e-10);
   expect_closed<double>(gpu_scenes::column_apic, 1e-10);
+  expect_closed<double>(gpu_scenes::column_fmpm, 1e-10);
 }
 
 /// All numbers of a run as bytes.
@@ -188,6 +197,7 @@ TEST(GpuStep, OrderOfVisitsDoesNotMatter) {
   expect_same_bits<float>(gpu_scenes::column_usavg);
   expect_same_bits<float>(gpu_scenes::column_cubic);
   expect_same_bits<double>(gpu_scenes::column_apic);
+  expect_same_bits<double>(gpu_scenes::column_fmpm);
 }
 
 // Half of the steps here, the rest by the solver from what was written back.

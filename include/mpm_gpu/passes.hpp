@@ -21,7 +21,7 @@ struct Passes {
   Pass domains;          ///< stretch of boxes for this step; null of a shape function that does not stretch
   Pass momentum[2];      ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
   Pass gradient;         ///< grad v of particles
-  Pass first_increment;  ///< of XPIC and FMPM, the velocity that is passed to and fro
+  Pass first_increment;  ///< velocity that XPIC and FMPM pass to and fro
   Pass to_particles;     ///< increment at particles, in the place of gradients
   Pass increment;        ///< the next one at nodes, from those, and the velocity with it
   Pass force;            ///< a, and v of the step's end, by force, gravity and walls

@@ -5,6 +5,7 @@
 //   gradient      grad v of particles       <-  v               a gather by particles
 //   (the law)     F, tau, history           <-  grad v dt       a set at a time
 //   force         a, v of nodes             <-  particles       a gather by nodes; gravity and walls
+//   (increments)  v of nodes               <-  v and particles  XPIC, FMPM: to particles and back, an order at a time
 //   move          v, x of particles         <-  v, a            a gather by particles
 //
 // Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "mpm_gpu/cells.hpp"
+#include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/passes.hpp"
 
 namespace mpm_gpu {
@@ -51,7 +53,7 @@ struct Method {
   Shape shape = Shape::ugimp;
   Update update = Update::usf;
   mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC; XPIC and FMPM; or APIC
-  int order = 1;                                       ///< of XPIC and FMPM
+  int order = 1;                                       ///< order of XPIC and FMPM
   bool from_start = false;                             ///< XPIC: increments are of the velocity at the step's start
   double flip = 1.0;                                   ///< fraction of FLIP; the rest is PIC
   int terms = 1;                                       ///< number of terms of exp(grad v dt)
@@ -129,6 +131,7 @@ class Solver {
   const Passes<T>* passes_;
   std::vector<LawPass<T>> law_passes_;
   CellTable cells_;
+  WallHolds holds_;
   long count_ = 0;
   std::array<Buffer<double>, 3> next_x_;  ///< empty with USF
   std::array<Buffer<T>, 9> gradient_;

@@ -7,6 +7,13 @@
 #include <utility>
 
 namespace mpm_gpu {
+namespace {
+
+bool rubs(const GridView& grid, int dim) {
+  return std::any_of(grid.faces, grid.faces + 2 * dim, [](Face face) { return face == Face::frictional; });
+}
+
+}  // namespace
 
 template <class T>
 typename Solver<T>::OfNodes& Solver<T>::OfNodes::operator+=(const OfNodes& other) {
@@ -38,7 +45,8 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
       store_(std::move(particles)),
       run_(executor),
       passes_(&passes(dim, method.shape, T())),
-      cells_(grid, dim) {
+      cells_(grid, dim),
+      holds_(dim, rubs(grid, dim) ? 2 * dim : 0) {
   for (const LawOfSet& law : laws_) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     if (law_passes_.back() == nullptr) {
@@ -62,6 +70,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
 template <class T>
 void Solver<T>::make_room() {
   cells_.make_room(run_, places().data(), sets_);
+  holds_.make_room(run_, cells_.room());
   mass_.fit(cells_.room());
   for (Buffer<double>& field : nodal_) field.fit(cells_.room() * dim_);
   if (method_.order > 1) increment_.fit(cells_.room() * dim_);
@@ -72,6 +81,7 @@ void Solver<T>::make_room() {
 template <class T>
 void Solver<T>::sort() {
   cells_.sort(run_, places().data(), sets_);
+  holds_.carry(run_, cells_.view());
   const std::uint32_t *order = cells_.order(), *node = cells_.node_of_particles();
   const auto permute = [&](auto& values, auto& room) {
     if (values.size() == 0) return;
@@ -118,6 +128,7 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.momentum = nodal_[0].data();
   view.nodes.velocity = nodal_[1].data();
   view.nodes.acceleration = nodal_[2].data();
+  view.nodes.hold = holds_.data();
   view.nodes.increment = increment_.data();
   view.nodes.held = nodal_[3].data();
   view.sets = sets_.data();
@@ -241,8 +252,8 @@ std::size_t Solver<T>::particle_bytes() {
 
 template <class T>
 std::size_t Solver<T>::bytes() {
-  std::size_t sum = particle_bytes() + cells_.bytes() + mass_.bytes() + increment_.bytes() + of_nodes_.bytes() +
-                    of_particles_.bytes();
+  std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + mass_.bytes() + increment_.bytes() +
+                    of_nodes_.bytes() + of_particles_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
   return sum + of_momentum_.bytes();
 }

@@ -16,15 +16,20 @@ inline void number_of_node(const GridView& grid, int dim, const std::uint64_t* k
   }
 }
 
-/// The first face, 2 * axis, + 1 for the upper one, whose wall holds the node along an axis; -1 without one. In an edge
-/// of the domain walls act in this order, and the first takes all.
+/// The face, 2 * axis, + 1 for the upper one, whose wall's impulse at a node along an axis counts; -1 without one. In
+/// an edge of the domain walls that hold act before those that rub, and the first of a kind takes all.
 inline int holding_face(const GridView& grid, int dim, const int* number, int axis) {
+  int rubs = -1;
   for (int face = 0; face < 2 * dim; ++face) {
     const int across = face / 2, beyond = face % 2 == 1 ? number[across] - grid.last_node[across] : -number[across];
     if (grid.faces[face] == Face::open || beyond < 0 || beyond > grid.wall_layers) continue;
-    if (across == axis || grid.faces[face] == Face::fixed) return face;
+    if (grid.faces[face] == Face::frictional) {
+      if (rubs < 0) rubs = face;
+    } else if (across == axis || grid.faces[face] == Face::fixed) {
+      return face;
+    }
   }
-  return -1;
+  return rubs;
 }
 
 }  // namespace mpm_gpu

@@ -5,20 +5,9 @@
 
 #include "mpm/kernel/stress.hpp"
 #include "mpm_gpu/stencil.hpp"
+#include "mpm_gpu/walls.hpp"
 
 namespace mpm_gpu {
-
-/// Axes along which walls hold a node, as bits.
-template <int Dim>
-unsigned held_axes(const GridView& grid, const int* number) {
-  unsigned held = 0;
-  for (int face = 0; face < 2 * Dim; ++face) {
-    const int axis = face / 2, beyond = face % 2 == 1 ? number[axis] - grid.last_node[axis] : -number[axis];
-    if (grid.faces[face] == Face::open || beyond < 0 || beyond > grid.wall_layers) continue;
-    held |= grid.faces[face] == Face::fixed ? (1U << Dim) - 1U : 1U << axis;
-  }
-  return held;
-}
 
 /// `Affine`: with APIC's affine field, v + B D^-1 (x_i - x_p).
 template <class T, class Geometry, template <class> class ShapeClass, bool Affine = false>
@@ -45,11 +34,13 @@ struct MomentumKernel {
         });
     const NodeView& to = step.nodes;
     const bool carries = mass > step.grid.least_mass;
-    const unsigned held = held_axes<kDim>(step.grid, number);
+    double velocity[kDim];
+    for (int c = 0; c < kDim; ++c) velocity[c] = carries ? momentum[c] / mass : 0.0;
+    hold_for_strain<kDim>(step.grid, to, node, number, velocity);
     to.mass[node] = mass;
     for (int c = 0; c < kDim; ++c) {
       to.momentum[c * to.nodes + node] = momentum[c];
-      to.velocity[c * to.nodes + node] = carries && (held >> c & 1U) == 0 ? momentum[c] / mass : 0.0;
+      to.velocity[c * to.nodes + node] = velocity[c];
     }
   }
 };
@@ -81,19 +72,76 @@ struct ForceKernel {
       each_particle_of<T, kDim, ShapeClass>(step, node, number, add);
     }
     const bool carries = mass > step.grid.least_mass;
-    const unsigned held = held_axes<kDim>(step.grid, number);
+    double acceleration[kDim], free[kDim], velocity[kDim];
+    for (int c = 0; c < kDim; ++c) {
+      acceleration[c] = carries ? force[c] / mass + step.grid.gravity[c] : 0.0;
+      free[c] = carries ? to.momentum[c * to.nodes + node] / mass + acceleration[c] * dt : 0.0;
+      velocity[c] = free[c];
+    }
+    hold_at_end<kDim>(step.grid, to, node, number, velocity);
     for (int c = 0; c < kDim; ++c) {
       const long at = c * to.nodes + node;
-      double acceleration = carries ? force[c] / mass + step.grid.gravity[c] : 0.0;
-      double velocity = carries ? to.momentum[at] / mass + acceleration * dt : 0.0, given = 0.0;
-      if ((held >> c & 1U) != 0) {
-        given = -mass * velocity;
-        acceleration -= velocity / dt;
-        velocity = 0.0;
-      }
-      to.velocity[at] = velocity;
-      to.acceleration[at] = acceleration;
-      to.held[at] = given;
+      const double change = velocity[c] - free[c];
+      to.velocity[at] = velocity[c];
+      to.acceleration[at] = acceleration[c] + change / dt;
+      to.held[at] = mass * change;
+    }
+  }
+};
+
+/// The velocity of which increments are found: of the step's start (XPIC), in which a wall's nodes rest, or of its end
+/// (FMPM). Source: method reference 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist (2021).
+template <class T, int Dim>
+struct FirstIncrementKernel {
+  StepView<T> step;
+
+  void operator()(long node) const {
+    const NodeView& to = step.nodes;
+    int number[3];
+    number_along<T, Dim>(step, node, number);
+    const double mass = to.mass[node];
+    const bool carries = mass > step.grid.least_mass;
+    double first[Dim];
+    for (int c = 0; c < Dim; ++c) {
+      const long at = c * to.nodes + node;
+      first[c] = !step.settings.from_start ? to.velocity[at] : carries ? to.momentum[at] / mass : 0.0;
+    }
+    hold_increment<Dim>(step.grid, to, node, number, first);
+    for (int c = 0; c < Dim; ++c) to.increment[c * to.nodes + node] = first[c];
+  }
+};
+
+/// The next increment, dv - S+ S dv: what particles have of the one before it, gathered, is taken from that. Walls hold
+/// theirs.
+template <class T, int Dim, template <class> class ShapeClass>
+struct IncrementKernel {
+  StepView<T> step;
+
+  void operator()(long node) const {
+    using W = mpm::Wide<T>;
+    const NodeView& to = step.nodes;
+    int number[3];
+    number_along<T, Dim>(step, node, number);
+    const double mass = to.mass[node];
+    if (!(mass > step.grid.least_mass)) return;  // zero from the first
+    double momentum[Dim] = {};
+    each_particle_of<T, Dim, ShapeClass>(step, node, number,
+                                         [&](const SetView& set, long p, const auto& stencil, const int* n) {
+                                           const W part = W(set.mass) * stencil.value(n);
+                                           for (int c = 0; c < Dim; ++c)
+                                             momentum[c] += (part * W::load(step.particles.gradient[c] + p)).v;
+                                         });
+    double free[Dim], next[Dim];
+    for (int c = 0; c < Dim; ++c) {
+      free[c] = to.increment[c * to.nodes + node] - momentum[c] / mass;
+      next[c] = free[c];
+    }
+    hold_increment<Dim>(step.grid, to, node, number, next);
+    for (int c = 0; c < Dim; ++c) {
+      const long at = c * to.nodes + node;
+      to.increment[at] = next[c];
+      to.velocity[at] += next[c];
+      to.held[at] += mass * (next[c] - free[c]);
     }
   }
 };

@@ -57,6 +57,25 @@ struct GradientKernel {
   }
 };
 
+/// Increments at particles: kept where the gradient was, which nobody needs at this time.
+template <class T, int Dim, template <class> class ShapeClass>
+struct IncrementToParticlesKernel {
+  StepView<T> step;
+  SetView set;
+
+  void operator()(long i) const {
+    using W = mpm::Wide<T>;
+    const long p = set.first + i;
+    const auto stencil = stencil_of<T, Dim, ShapeClass>(step, set, p);
+    W sum[Dim] = {};
+    each_node_of<Dim, Stencil<T, Dim, ShapeClass>::kNodes>(step, p, [&](long node, const int* n) {
+      const W value = stencil.value(n);
+      for (int c = 0; c < Dim; ++c) sum[c] += value * W(step.nodes.increment[c * step.nodes.nodes + node]);
+    });
+    for (int c = 0; c < Dim; ++c) sum[c].store(step.particles.gradient[c] + p);
+  }
+};
+
 /// `Kind`: the particle's velocity gains the grid's acceleration, or becomes the grid's, with its first moment B or
 /// not.
 template <class T, int Dim, template <class> class ShapeClass, mpm_kernel::Motion Kind>

@@ -18,10 +18,13 @@ enum class Update : int { usf, usl, usavg };
 template <class T>
 struct Passes {
   using Pass = void (*)(Executor&, const StepView<T>&);
-  Pass domains;      ///< stretch of boxes for this step; null of a shape function that does not stretch
-  Pass momentum[2];  ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
-  Pass gradient;     ///< grad v of particles
-  Pass force;        ///< a, and v of the step's end, by force, gravity and walls
+  Pass domains;          ///< stretch of boxes for this step; null of a shape function that does not stretch
+  Pass momentum[2];      ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
+  Pass gradient;         ///< grad v of particles
+  Pass first_increment;  ///< velocity that XPIC and FMPM pass to and fro
+  Pass to_particles;     ///< increment at particles, in the place of gradients
+  Pass increment;        ///< the next one at nodes, from those, and the velocity with it
+  Pass force;            ///< a, and v of the step's end, by force, gravity and walls
   Pass move[mpm_kernel::kMotions];  ///< v and next x of particles; what has left its cell or the domain
 };
 

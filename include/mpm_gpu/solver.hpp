@@ -6,6 +6,7 @@
 //   gradient      grad v of particles       <-  v               a gather by particles
 //   (the law)     F, tau, history           <-  grad v dt       a set at a time
 //   force         a, v of nodes             <-  particles       a gather by nodes; gravity and walls
+//   (increments)  v of nodes               <-  v and particles  XPIC, FMPM: to particles and back, an order at a time
 //   move          v, x of particles         <-  v, a            a gather by particles
 //
 // Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "mpm_gpu/cells.hpp"
+#include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/passes.hpp"
 
 namespace mpm_gpu {
@@ -53,7 +55,9 @@ struct ParticleStore {
 struct Method {
   Shape shape = Shape::ugimp;
   Update update = Update::usf;
-  mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC, or APIC
+  mpm_kernel::Motion motion = mpm_kernel::kIncrement;  ///< FLIP and PIC; XPIC and FMPM; or APIC
+  int order = 1;                                       ///< order of XPIC and FMPM
+  bool from_start = false;                             ///< XPIC: increments are of the velocity at the step's start
   double flip = 1.0;                                   ///< fraction of FLIP; the rest is PIC
   int terms = 1;                                       ///< number of terms of exp(grad v dt)
 };
@@ -109,6 +113,8 @@ class Solver {
   StepView<T> view(double dt);
   /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
   void strain(StepView<T> now, double dt);
+  /// Adds the increments of XPIC and FMPM to the velocity of the nodes.
+  void filter(const StepView<T>& now);
   void check();
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
@@ -147,6 +153,7 @@ class Solver {
   std::vector<LawPass<T>> law_passes_;
   std::vector<RatePass<T>> rate_passes_;
   CellTable cells_;
+  WallHolds holds_;
   long count_ = 0;
   std::array<Buffer<double>, 3> next_x_;  ///< empty with USF
   std::array<Buffer<T>, 9> gradient_;
@@ -156,6 +163,7 @@ class Solver {
   Buffer<double> place_room_;
   Buffer<T> room_;
   Buffer<double> mass_, nodal_[4];
+  Buffer<double> increment_;  ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
   Buffer<Momentum> of_momentum_;

@@ -17,13 +17,14 @@ constexpr int kBeside = 8;       ///< nodes below the domain's first that have a
 constexpr int nodes_of_block(int dim) { return dim == 3 ? 64 : 16; }
 constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : 9; }
 
-enum class Face : int { open, slip, fixed };
+enum class Face : int { open, slip, fixed, frictional };
 
 struct GridView {
   double origin[3], inverse_cell[3];
   int last_node[3];                  ///< on the upper face
   long blocks_along[3];              ///< edges of the box of all blocks that may be needed
   Face faces[6];                     ///< 2 * axis, + 1 for the upper one
+  double friction[6];                ///< coefficients of frictional walls; infinite: none slides while pressed
   double low_wall[3], high_wall[3];  ///< node numbers of the faces that are walls
   int wall_layers;                   ///< layers of nodes beyond a wall that it holds, too
   double gravity[3];                 ///< [m/s^2]
@@ -74,6 +75,8 @@ struct NodeView {
   double* momentum;            ///< [N s]
   double* velocity;            ///< [m/s]
   double* acceleration;        ///< [m/s^2]
+  std::uint8_t* hold;          ///< [face][node], how frictional walls hold (walls.hpp); null if there are none
+  double* increment;           ///< increment of XPIC or FMPM that is at work [m/s]
   double* held;                ///< impulse that walls give in a step [N s]
 };
 
@@ -81,6 +84,7 @@ struct StepSettings {
   double dt;         ///< [s]
   double strain_dt;  ///< time of one update of strain: half of dt where there are two [s]
   double flip;       ///< fraction of FLIP; the rest is PIC
+  bool from_start;   ///< XPIC: increments are of the velocity at the step's start
   int terms;         ///< number of terms of exp(grad v strain_dt)
 };
 

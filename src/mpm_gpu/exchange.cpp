@@ -1,6 +1,7 @@
 #include "mpm_gpu/exchange.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -35,6 +36,19 @@ bool cut_places(const SimulationDefinition& d) {
                      [](const auto& body) { return !body.parts.empty() || !body.surfaces.empty(); });
 }
 
+Face face_of(mpm::WallKind kind) {
+  switch (kind) {
+    case mpm::WallKind::none:
+      return Face::open;
+    case mpm::WallKind::fixed:
+      return Face::fixed;
+    case mpm::WallKind::frictional:
+      return Face::frictional;
+    default:
+      return Face::slip;
+  }
+}
+
 GridView view_of(const SimulationDefinition& d) {
   const mpm::GridLayout layout(dimensions(d.geometry), d.grid.cell, d.grid.min, d.grid.max);
   GridView view{};
@@ -46,10 +60,10 @@ GridView view_of(const SimulationDefinition& d) {
     // A block more to each side than the particles', who reach a node beyond the domain.
     view.blocks_along[k] = (layout.last_node(k) + 1 + kBeside) / kEdge + 2;
     for (int side = 0; side < 2; ++side) {
-      const mpm::WallKind kind = d.walls[2 * layout.axis(k) + side].kind;
-      view.faces[2 * k + side] = kind == mpm::WallKind::none    ? Face::open
-                                 : kind == mpm::WallKind::fixed ? Face::fixed
-                                                                : Face::slip;
+      const mpm::WallDefinition& wall = d.walls[2 * layout.axis(k) + side];
+      view.faces[2 * k + side] = face_of(wall.kind);
+      view.friction[2 * k + side] =
+          wall.friction.stick ? std::numeric_limits<double>::infinity() : wall.friction.coefficient;
     }
     view.low_wall[k] = view.faces[2 * k] != Face::open ? 0.0 : -mpm_kernel::kNoWall;
     view.high_wall[k] = view.faces[2 * k + 1] != Face::open ? layout.last_node(k) : mpm_kernel::kNoWall;
@@ -79,8 +93,15 @@ Method method_of(const SimulationDefinition& d) {
   method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
                   : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
                                                                 : Update::usf;
-  if (d.method.transfer.kind == mpm::TransferKind::apic) method.motion = mpm_kernel::kAffine;
-  method.flip = d.method.transfer.flip;
+  const mpm::Transfer& transfer = d.method.transfer;
+  method.flip = transfer.flip;
+  if (transfer.kind == mpm::TransferKind::apic) {
+    method.motion = mpm_kernel::kAffine;
+  } else if (transfer.kind != mpm::TransferKind::flip) {
+    method.motion = mpm_kernel::kAdopt;
+    method.order = transfer.order;
+    method.from_start = transfer.kind == mpm::TransferKind::xpic;
+  }
   method.terms = d.method.gradient_terms;
   return method;
 }
@@ -188,8 +209,6 @@ std::string refused(const SimulationDefinition& d) {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
       {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
       {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {transfer.kind != mpm::TransferKind::flip && transfer.kind != mpm::TransferKind::apic,
-       "method.transfer other than flip and apic"},
       {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
       {d.method.average_dilatation, "method.average_dilatation"},
       {d.method.damping.any(), "method.damping"},
@@ -198,11 +217,8 @@ std::string refused(const SimulationDefinition& d) {
       {cut_places(d), "a body with a curved surface that cuts particles"},
       {!d.rigid_bodies.empty() || !d.robots.empty(), "a rigid body or robot"},
       {any_wall(d,
-                [](mpm::WallKind kind) {
-                  return kind == mpm::WallKind::frictional || kind == mpm::WallKind::absorbing ||
-                         kind == mpm::WallKind::periodic;
-                }),
-       "a wall other than fixed, slip and symmetry"},
+                [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing || kind == mpm::WallKind::periodic; }),
+       "an absorbing or periodic face"},
       {!d.conditions.empty(), "a prescribed velocity"},
       {!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty(), "a load other than gravity"},
       {d.sleep.has_value(), "sleep"},

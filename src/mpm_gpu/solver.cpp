@@ -11,6 +11,13 @@
 #include "mpm_gpu/faces.hpp"
 
 namespace mpm_gpu {
+namespace {
+
+bool rubs(const GridView& grid, int dim) {
+  return std::any_of(grid.faces, grid.faces + 2 * dim, [](Face face) { return face == Face::frictional; });
+}
+
+}  // namespace
 
 template <class T>
 typename Solver<T>::OfNodes& Solver<T>::OfNodes::operator+=(const OfNodes& other) {
@@ -49,7 +56,8 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
       store_(std::move(particles)),
       run_(executor),
       passes_(&passes(dim, method.shape, T())),
-      cells_(grid, dim) {
+      cells_(grid, dim),
+      holds_(dim, rubs(grid, dim) ? 2 * dim : 0) {
   for (const LawOfSet& law : laws_) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     rate_passes_.push_back(rate_pass(dim, law.index, T()));
@@ -75,8 +83,10 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
 template <class T>
 void Solver<T>::make_room() {
   cells_.make_room(run_, places().data(), sets_);
+  holds_.make_room(run_, cells_.room());
   mass_.fit(cells_.room());
   for (Buffer<double>& field : nodal_) field.fit(cells_.room() * dim_);
+  if (method_.order > 1) increment_.fit(cells_.room() * dim_);
   of_nodes_.fit(Executor::groups_of(cells_.room()));
   must_sort_ = true;  // the table may have moved
 }
@@ -84,6 +94,7 @@ void Solver<T>::make_room() {
 template <class T>
 void Solver<T>::sort() {
   cells_.sort(run_, places().data(), sets_);
+  holds_.carry(run_, cells_.view());
   const std::uint32_t *order = cells_.order(), *node = cells_.node_of_particles();
   const auto permute = [&](auto& values, auto& room) {
     if (values.size() == 0) return;
@@ -132,10 +143,12 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.momentum = nodal_[0].data();
   view.nodes.velocity = nodal_[1].data();
   view.nodes.acceleration = nodal_[2].data();
+  view.nodes.hold = holds_.data();
+  view.nodes.increment = increment_.data();
   view.nodes.held = nodal_[3].data();
   view.sets = sets_.data();
   view.set_count = static_cast<int>(sets_.size());
-  view.settings = {dt, dt, method_.flip, method_.terms};
+  view.settings = {dt, dt, method_.flip, method_.from_start, method_.terms};
   return view;
 }
 
@@ -151,6 +164,7 @@ void Solver<T>::step(double dt) {
   average(now);
   if (method_.update != Update::usl) strain(now, halves ? 0.5 * dt : dt);
   passes_->force(run_, now);
+  filter(now);
   passes_->move[method_.motion](run_, now);
   if (method_.update != Update::usf) {
     momentum(now);
@@ -175,6 +189,15 @@ void Solver<T>::strain(StepView<T> now, double dt) {
   now.settings.strain_dt = dt;
   passes_->gradient(run_, now);
   for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
+}
+
+template <class T>
+void Solver<T>::filter(const StepView<T>& now) {
+  if (method_.order > 1) passes_->first_increment(run_, now);
+  for (int n = 1; n < method_.order; ++n) {
+    passes_->to_particles(run_, now);
+    passes_->increment(run_, now);
+  }
 }
 
 template <class T>
@@ -288,7 +311,8 @@ std::size_t Solver<T>::particle_bytes() {
 
 template <class T>
 std::size_t Solver<T>::bytes() {
-  std::size_t sum = particle_bytes() + cells_.bytes() + mass_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
+  std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + mass_.bytes() + increment_.bytes() +
+                    of_nodes_.bytes() + of_particles_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
   return sum + of_momentum_.bytes() + of_faster_.bytes();
 }

@@ -141,6 +141,39 @@ inline mpm::SimulationDefinition column_apic(mpm::Precision precision) {
   return d;
 }
 
+/// The two blocks with XPIC(3).
+inline mpm::SimulationDefinition blocks_xpic(mpm::Precision precision) {
+  mpm::SimulationDefinition d = two_blocks(precision);
+  d.method.transfer.kind = mpm::TransferKind::xpic;
+  d.method.transfer.order = 3;
+  return d;
+}
+/// The column with FMPM(2), its strain updated half first and half last.
+inline mpm::SimulationDefinition column_fmpm(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column_usavg(precision);
+  d.method.transfer = {};
+  d.method.transfer.kind = mpm::TransferKind::fmpm;
+  d.method.transfer.order = 2;
+  return d;
+}
+
+/// The falling block on a floor with friction, from which it rebounds.
+inline mpm::SimulationDefinition block_friction(mpm::Precision precision) {
+  mpm::SimulationDefinition d = falling_block(precision);
+  d.walls[4].kind = mpm::WallKind::frictional;
+  d.walls[4].friction.coefficient = 0.2;
+  return d;
+}
+/// The column with FMPM(2) and strain in halves, on a floor with friction and beside a wall that it sticks to while
+/// pressed.
+inline mpm::SimulationDefinition column_friction(mpm::Precision precision) {
+  mpm::SimulationDefinition d = column_fmpm(precision);
+  for (mpm::WallDefinition* wall : {&d.walls[0], &d.walls[4]}) wall->kind = mpm::WallKind::frictional;
+  d.walls[0].friction.stick = true;
+  d.walls[4].friction.coefficient = 0.3;
+  return d;
+}
+
 /// Time in which the fastest wave of the materials at rest crosses 0.3 cells [s].
 inline double step_of(const mpm::SimulationDefinition& d) {
   double fastest = 0.0;

@@ -119,6 +119,16 @@ void expect_averaged_alike(SimulationDefinition (*of)(mpm::Precision)) {
 TEST(GpuSimulation, AveragedColumnRunsAsOnTheProcessor) { expect_averaged_alike(averaged_column); }
 TEST(GpuSimulation, AveragedClayRunsAsOnTheProcessor) { expect_averaged_alike(averaged_clay); }
 
+// A floor that rubs, beside walls that hold, with strain in halves.
+SimulationDefinition rubbing_block(mpm::Precision precision) {
+  SimulationDefinition d = gpu_scenes::falling_block(precision);
+  d.method.update = mpm::UpdateScheme::usavg;
+  d.walls[4].kind = mpm::WallKind::frictional;
+  d.walls[4].friction.coefficient = 0.3;
+  return d;
+}
+TEST(GpuSimulation, RubbingBlockRunsAsOnTheProcessor) { expect_run_alike(rubbing_block); }
+
 // Half of the run on one, half on the other, by a checkpoint; either way. The accounts of walls go on.
 TEST(GpuSimulation, CheckpointsGoFromOneToTheOther) {
   const mpm::test::Folder folder;

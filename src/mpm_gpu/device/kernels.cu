@@ -48,6 +48,8 @@ void each_pass() {
   (void)&launch<MomentumKernel<T, Geometry, ShapeClass>>;
   (void)&launch<MomentumKernel<T, Geometry, ShapeClass, true>>;
   (void)&launch<GradientKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<IncrementToParticlesKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<IncrementKernel<T, Geometry::kDim, ShapeClass>>;
   (void)&launch<ForceKernel<T, Geometry, ShapeClass>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt>>;
@@ -76,6 +78,7 @@ void each_kernel() {
   each_pass<T, Geometry, mpm::QuadraticSpline>();
   each_pass<T, Geometry, mpm::CubicSpline>();
   (void)&launch<DomainKernel<T, Geometry::kDim>>;
+  (void)&launch<FirstIncrementKernel<T, Geometry::kDim>>;
   each_law<T, Geometry>(static_cast<const mpm::Law*>(nullptr));
 }
 

@@ -25,6 +25,18 @@ struct PassesOf {
       run.for_each("gpu: velocity gradient", set.count, GradientKernel<T, kDim, ShapeClass>{step, set});
     }
   }
+  static void first_increment(Executor& run, const StepView<T>& step) {
+    run.for_each("gpu: increments", step.nodes.nodes, FirstIncrementKernel<T, kDim>{step});
+  }
+  static void to_particles(Executor& run, const StepView<T>& step) {
+    for (int s = 0; s < step.set_count; ++s) {
+      const SetView& set = step.sets[s];
+      run.for_each("gpu: increments", set.count, IncrementToParticlesKernel<T, kDim, ShapeClass>{step, set});
+    }
+  }
+  static void increment(Executor& run, const StepView<T>& step) {
+    run.for_each("gpu: increments", step.nodes.nodes, IncrementKernel<T, kDim, ShapeClass>{step});
+  }
   static void force(Executor& run, const StepView<T>& step) {
     run.for_each("gpu: force and momentum of nodes", step.nodes.nodes, ForceKernel<T, Geometry, ShapeClass>{step});
   }
@@ -40,6 +52,9 @@ struct PassesOf {
       kStretches ? &domains : nullptr,
       {&momentum<false>, &momentum<true>},
       &gradient,
+      &first_increment,
+      &to_particles,
+      &increment,
       &force,
       {&move<mpm_kernel::kIncrement>, &move<mpm_kernel::kAdopt>, &move<mpm_kernel::kAffine>}};
 };

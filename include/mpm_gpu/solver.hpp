@@ -31,12 +31,12 @@ struct ParticleStore {
 
   /// visit(buffer) for each.
   template <class Visit>
-  void each(Visit&& visit) {
-    for (auto& one : x) visit(one);
-    for (auto& one : v) visit(one);
-    for (auto& one : f) visit(one);
-    for (auto& one : tau) visit(one);
-    for (auto& one : history) visit(one);
+  void each(Visit&& visit) const {
+    for (const auto& one : x) visit(one);
+    for (const auto& one : v) visit(one);
+    for (const auto& one : f) visit(one);
+    for (const auto& one : tau) visit(one);
+    for (const auto& one : history) visit(one);
     visit(id);
   }
 };
@@ -49,11 +49,12 @@ struct Impulses {
 template <class T>
 class Solver {
  public:
-  /// `laws`: of each set, its index in the list of laws and the law, which outlives the solver. The particles of the
+  /// `laws`: of each set, its index in the list of laws and the law, which is copied. The particles of the
   /// sets follow each other in the store. @throws GpuError for a law that cannot run there
   struct LawOfSet {
     std::size_t index;
     const void* law;
+    std::size_t bytes;  ///< size of the law, which goes to the device as it is
   };
   Solver(const GridView& grid, int dim, Shape shape, double flip, int terms, std::vector<SetView> sets,
          std::vector<LawOfSet> laws, ParticleStore<T> particles, Executor executor);
@@ -81,21 +82,34 @@ class Solver {
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
 
+  // Sums are constexpr, so that kernels may call them, too.
   /// Sums of the nodes in a step.
   struct OfNodes {
     double held[3], mass;
-    OfNodes& operator+=(const OfNodes& other);
+    constexpr OfNodes& operator+=(const OfNodes& other) {
+      for (int k = 0; k < 3; ++k) held[k] += other.held[k];
+      mass += other.mass;
+      return *this;
+    }
   };
   /// Faults of the particles in a step; numbers of the first ones.
   struct OfParticles {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
-    OfParticles& operator+=(const OfParticles& other);
+    constexpr OfParticles& operator+=(const OfParticles& other) {
+      left = left || other.left;
+      outside = outside < other.outside ? outside : other.outside;
+      inverted = inverted < other.inverted ? inverted : other.inverted;
+      return *this;
+    }
   };
   struct Momentum {
     double p[3] = {};
-    Momentum& operator+=(const Momentum& other);
+    constexpr Momentum& operator+=(const Momentum& other) {
+      for (int k = 0; k < 3; ++k) p[k] += other.p[k];
+      return *this;
+    }
   };
 
   GridView grid_;
@@ -103,7 +117,8 @@ class Solver {
   double flip_;
   int terms_;
   std::vector<SetView> sets_;
-  std::vector<LawOfSet> laws_;
+  Buffer<SetView> sets_there_;
+  std::vector<Buffer<unsigned char>> laws_;  ///< the law of each set
   ParticleStore<T> store_;
   Executor run_;
   const Passes<T>* passes_;

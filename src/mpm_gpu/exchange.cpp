@@ -85,8 +85,7 @@ template <class T>
 std::vector<typename Solver<T>::LawOfSet> pointers_to(const std::vector<mpm::Law>& laws) {
   std::vector<typename Solver<T>::LawOfSet> result;
   for (const mpm::Law& law : laws) {
-    const void* own = std::visit([](const auto& one) -> const void* { return &one; }, law);
-    result.push_back({law.index(), own});
+    std::visit([&](const auto& one) { result.push_back({law.index(), &one, sizeof(one)}); }, law);
   }
   return result;
 }
@@ -125,9 +124,11 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
   for (const ParticleSet& set : sets) {
     const auto copy = [&](const auto& from, auto& to) {
       for (std::size_t c = 0; c < from.size(); ++c) {
+        using Number = std::decay_t<decltype(to[c].get(0))>;
+        std::vector<Number> numbers(set.size());
+        for (int p = 0; p < set.size(); ++p) numbers[p] = static_cast<Number>(from[c][p]);
         to[c].fit(count);
-        using Number = std::decay_t<decltype(to[c][0])>;
-        for (int p = 0; p < set.size(); ++p) to[c][first + p] = static_cast<Number>(from[c][p]);
+        to[c].upload(numbers, first);
       }
     };
     copy(set.x, store.x);
@@ -135,7 +136,7 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     copy(set.f, store.f);
     copy(set.tau, store.tau);
     copy(set.history, store.history);
-    for (int p = 0; p < set.size(); ++p) store.id[first + p] = set.id[p];
+    store.id.upload(std::vector<std::uint32_t>(set.id.begin(), set.id.end()), first);
     first += set.size();
   }
   return store;
@@ -196,6 +197,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
 template <class T>
 void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
   const ParticleStore<T>& store = solver_.particles();
+  const std::vector<std::uint32_t> id = store.id.download();
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ParticleSet& set = sets[s];
     const long first = solver_.sets()[s].first;
@@ -204,14 +206,16 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
     std::iota(here.begin(), here.end(), 0U);
     std::iota(there.begin(), there.end(), static_cast<std::uint32_t>(first));
     std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) { return set.id[a] < set.id[b]; });
-    std::sort(there.begin(), there.end(), [&](std::uint32_t a, std::uint32_t b) { return store.id[a] < store.id[b]; });
+    std::sort(there.begin(), there.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
     const auto copy = [&](const auto& from, auto& to) {
       for (std::size_t c = 0; c < to.size(); ++c) {
-        for (std::size_t i = 0; i < here.size(); ++i) to[c].set(here[i], from[c][there[i]]);
+        const auto numbers = from[c].download();
+        for (std::size_t i = 0; i < here.size(); ++i) to[c].set(here[i], numbers[there[i]]);
       }
     };
     for (std::size_t k = 0; k < set.x.size(); ++k) {
-      for (std::size_t i = 0; i < here.size(); ++i) set.x[k][here[i]] = store.x[k][there[i]];
+      const std::vector<double> places = store.x[k].download();
+      for (std::size_t i = 0; i < here.size(); ++i) set.x[k][here[i]] = places[there[i]];
     }
     copy(store.v, set.v);
     copy(store.f, set.f);

@@ -2,30 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 namespace mpm_gpu {
-
-template <class T>
-typename Solver<T>::OfNodes& Solver<T>::OfNodes::operator+=(const OfNodes& other) {
-  for (int k = 0; k < 3; ++k) held[k] += other.held[k];
-  mass += other.mass;
-  return *this;
-}
-template <class T>
-typename Solver<T>::OfParticles& Solver<T>::OfParticles::operator+=(const OfParticles& other) {
-  left = left || other.left;
-  outside = std::min(outside, other.outside);
-  inverted = std::min(inverted, other.inverted);
-  return *this;
-}
-template <class T>
-typename Solver<T>::Momentum& Solver<T>::Momentum::operator+=(const Momentum& other) {
-  for (int k = 0; k < 3; ++k) p[k] += other.p[k];
-  return *this;
-}
 
 template <class T>
 Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int terms, std::vector<SetView> sets,
@@ -35,17 +15,20 @@ Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int t
       flip_(flip),
       terms_(terms),
       sets_(std::move(sets)),
-      laws_(std::move(laws)),
       store_(std::move(particles)),
       run_(executor),
       passes_(&passes(dim, shape, T())),
       cells_(grid, dim) {
-  for (const LawOfSet& law : laws_) {
+  for (const LawOfSet& law : laws) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     if (law_passes_.back() == nullptr) {
-      throw GpuError("gpu: a law of a user's program does not run there: use --device cpu");
+      throw GpuError("gpu: a law of the scene does not run there: run it on the processor");
     }
+    laws_.emplace_back().fit(static_cast<long>(law.bytes));
+    laws_.back().upload(static_cast<const unsigned char*>(law.law), static_cast<long>(law.bytes));
   }
+  sets_there_.fit(static_cast<long>(sets_.size()));
+  sets_there_.upload(sets_);
   for (const SetView& set : sets_) count_ += set.count;
   for (int c = 0; c < dim * dim; ++c) gradient_[c].fit(count_);
   node_.fit(count_);
@@ -114,6 +97,7 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.acceleration = nodal_[2].data();
   view.nodes.held = nodal_[3].data();
   view.sets = sets_.data();
+  view.sets_there = sets_there_.data();
   view.set_count = static_cast<int>(sets_.size());
   view.settings = {dt, flip_, terms_};
   return view;
@@ -125,7 +109,7 @@ void Solver<T>::step(double dt) {
   const StepView<T> now = view(dt);
   passes_->momentum(run_, now);
   passes_->gradient(run_, now);
-  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
+  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].data());
   passes_->force(run_, now);
   passes_->move(run_, now);
   account(dt);
@@ -169,9 +153,9 @@ void Solver<T>::check() {
   must_sort_ = all.left;
   const auto fail = [&](std::uint32_t p, const char* what) {
     std::string place;
-    for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", store_.x[k][p]);
-    throw GpuError(fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", store_.id[p], place,
-                               what, steps_));
+    for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", store_.x[k].get(p));
+    throw GpuError(fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", store_.id.get(p),
+                               place, what, steps_));
   };
   if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");

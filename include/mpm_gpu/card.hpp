@@ -30,7 +30,7 @@ void launch(const char* name, const void* kernel, long count, void** arguments);
 /// Room that scans and sorts of so many numbers take [bytes].
 std::size_t scan_room(long count);
 std::size_t sort_room(long count);
-/// What Launches has in exclusive_scan() and stable_sort(), by CUB.
+/// Bodies of exclusive_scan() and stable_sort() of Launches, by CUB.
 std::uint32_t exclusive_scan(void* room, std::size_t room_bytes, const std::uint32_t* from, std::uint32_t* to,
                              long count);
 void stable_sort(void* room, std::size_t room_bytes, std::uint64_t* keys, std::uint32_t* values,

@@ -70,6 +70,8 @@ class Launches {
     const std::size_t scan = card::scan_room(count), sort = card::sort_room(count);
     room_->fit(static_cast<long>(scan < sort ? sort : scan));
   }
+  /// @throws GpuError saying how many would fit, where so many particles of so many bytes do not
+  static void require(long particles, std::size_t bytes_of_each) { card::require(particles, bytes_of_each); }
 
  private:
   Visits visits_;

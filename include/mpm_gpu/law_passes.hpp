@@ -45,26 +45,17 @@ struct LawKernel {
   }
 };
 
-// A user's law is called through pointers into the host's program. Mohr-Coulomb's return on single numbers calls
-// functions of the standard library that are not the device's.
-#ifdef MPM_CUDA
-template <class LawType>
-constexpr bool kRunsThere = !std::is_same_v<LawType, mpm::UserLaw> && !std::is_same_v<LawType, mpm::MohrCoulomb>;
-#else
-template <class LawType>
-constexpr bool kRunsThere = !std::is_same_v<LawType, mpm::UserLaw>;
-#endif
-
 template <class T, class Geometry, class List = mpm::Law>
 struct LawPasses;
 template <class T, class Geometry, class... Laws>
 struct LawPasses<T, Geometry, std::variant<Laws...>> {
   template <class LawType>
   static constexpr LawPass<T> pass() {
-    if constexpr (kRunsThere<LawType>)
-      return &LawKernel<T, Geometry, LawType>::run;
-    else
+    // A user's law is called through pointers into the host's program.
+    if constexpr (std::is_same_v<LawType, mpm::UserLaw>)
       return nullptr;
+    else
+      return &LawKernel<T, Geometry, LawType>::run;
   }
   static constexpr LawPass<T> kPasses[] = {pass<Laws>()...};
 };

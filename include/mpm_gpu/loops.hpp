@@ -2,6 +2,7 @@
 // with the solver are checked without a card: forwards, backwards, shuffled, on several threads.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -30,6 +31,9 @@ class Loops {
 
   /// Makes room for scans and sorts of so many numbers; between steps only. Loops need none.
   void reserve(long /*count*/) {}
+  /// @throws GpuError saying how many would fit, where so many particles of so many bytes do not; a processor's memory
+  /// is not asked
+  static void require(long /*particles*/, std::size_t /*bytes_of_each*/) {}
 
  private:
   template <class Kernel>

@@ -115,11 +115,25 @@ double least_mass(const std::vector<ParticleSet>& sets) {
   return 1e-30 * least;  // as the solver has it
 }
 
+/// About what a particle takes [bytes]: its numbers, those of Solver beside them, and 200 for keys, the table and nodes
+/// of a compact body in three dimensions, of which twice what is in use is reserved.
+template <class T>
+std::size_t bytes_of_particle(const ParticleSet& set) {
+  const std::size_t axes = set.x.size(), of_solver = axes * axes + 1;
+  return (axes + 1) * sizeof(double) + 3 * sizeof(std::uint32_t) + 1 + 200 +
+         (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + of_solver) * sizeof(T);
+}
+
 template <class T>
 ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
   ParticleStore<T> store;
   long count = 0, first = 0;
-  for (const ParticleSet& set : sets) count += set.size();
+  std::size_t bytes = 0;
+  for (const ParticleSet& set : sets) {
+    count += set.size();
+    bytes = std::max(bytes, bytes_of_particle<T>(set));
+  }
+  Executor::require(count, bytes);
   store.id.fit(count);
   for (const ParticleSet& set : sets) {
     const auto copy = [&](const auto& from, auto& to) {

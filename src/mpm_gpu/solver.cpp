@@ -22,7 +22,7 @@ Solver<T>::Solver(const GridView& grid, int dim, Shape shape, double flip, int t
   for (const LawOfSet& law : laws) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     if (law_passes_.back() == nullptr) {
-      throw GpuError("gpu: a law of the scene does not run there: run it on the processor");
+      throw GpuError("gpu: a law of a user's program does not run there: run the scene on the processor");
     }
     laws_.emplace_back().fit(static_cast<long>(law.bytes));
     laws_.back().upload(static_cast<const unsigned char*>(law.law), static_cast<long>(law.bytes));

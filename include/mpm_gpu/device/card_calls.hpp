@@ -1,4 +1,4 @@
-// What the sources of the card share beyond card.hpp. For builds with MPM_CUDA.
+// Functions that the sources of the card share beyond card.hpp. For builds with MPM_CUDA.
 #pragma once
 
 #include <cstdint>

@@ -24,4 +24,5 @@
 #include <variant>
 #include <vector>
 
+#include "mpm_gpu/device/device_functions.hpp"
 #include "mpm_gpu/executor.hpp"

@@ -24,6 +24,8 @@
 #include <variant>
 #include <vector>
 
+#include "mpm_gpu/device/device_functions.hpp"
+
 #pragma clang force_cuda_host_device begin
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/ugimp.hpp"
@@ -49,10 +51,9 @@ void each_pass() {
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass>>;
 }
 
-/// False for a user's law, which is code of the host, and for Mohr-Coulomb until its return on single numbers does
-/// without std::pair, std::swap and std::copy, which are not the device's.
+/// False for a user's law, which is code of the host.
 template <class OneLaw>
-constexpr bool kOnDevice = !std::is_same_v<OneLaw, mpm::UserLaw> && !std::is_same_v<OneLaw, mpm::MohrCoulomb>;
+constexpr bool kOnDevice = !std::is_same_v<OneLaw, mpm::UserLaw>;
 
 template <class T, class Geometry, class OneLaw>
 void law() {

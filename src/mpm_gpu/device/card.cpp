@@ -108,8 +108,11 @@ void* allocate(std::size_t bytes) {
   return memory;
 }
 
-// The runtime may have ended before the last buffer, so what it answers is not looked at.
-void release(void* memory) noexcept { cudaFree(memory); }
+// Answers are not looked at: the runtime may have ended before the last buffer.
+void release(void* memory) noexcept {
+  cudaStreamSynchronize(card().stream);
+  cudaFree(memory);
+}
 
 void upload(void* to, const void* from, std::size_t bytes) {
   succeed(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, card().stream), "copy to the card");

@@ -7,6 +7,7 @@
 
 #include "mpm_gpu/card.hpp"
 #include "mpm_gpu/device/card_calls.hpp"
+#include "mpm_gpu/error.hpp"
 
 namespace mpm_gpu::card {
 namespace {
@@ -18,6 +19,11 @@ int bits_below(std::uint64_t limit) {
   int bits = 0;
   while (bits < 64 && (limit - 1) >> bits != 0) ++bits;
   return bits > 0 ? bits : 1;
+}
+
+/// CUB takes no room for a question of its size, and would do nothing.
+void require_room(const void* room) {
+  if (room == nullptr) throw GpuError("gpu: a scan or sort has no room: reserve() is called first");
 }
 
 }  // namespace
@@ -42,6 +48,7 @@ std::size_t sort_room(long count) {
 std::uint32_t exclusive_scan(void* room, std::size_t room_bytes, const std::uint32_t* from, std::uint32_t* to,
                              long count) {
   if (count == 0) return 0;
+  require_room(room);
   std::uint32_t* sums = host_sums();
   const auto copy_last = [&](std::uint32_t* sum, const std::uint32_t* numbers) {
     succeed(cudaMemcpyAsync(sum, numbers + count - 1, sizeof(std::uint32_t), cudaMemcpyDeviceToHost, cuda_stream()),
@@ -60,6 +67,7 @@ std::uint32_t exclusive_scan(void* room, std::size_t room_bytes, const std::uint
 void stable_sort(void* room, std::size_t room_bytes, std::uint64_t* keys, std::uint32_t* values,
                  std::uint64_t* other_keys, std::uint32_t* other_values, long count, std::uint64_t limit) {
   if (count == 0) return;
+  require_room(room);
   const Timed timed("gpu: radix sort");
   cub::DoubleBuffer<std::uint64_t> two_keys(keys, other_keys);
   cub::DoubleBuffer<std::uint32_t> two_values(values, other_values);

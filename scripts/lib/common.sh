@@ -33,10 +33,6 @@ find_cuda() {
     echo "build: --gpu needs a CUDA toolkit of 12 or later (looked for: $nvcc): install one, and set CUDA_HOME or put its nvcc on PATH" >&2
     return 2
   fi
-  if ! command -v clang++ clang++-16 clang++-15 clang++-14 >/dev/null; then
-    echo "build: --gpu needs clang 14 or later: install the package clang" >&2
-    return 2
-  fi
   folder=$(dirname "$(dirname "$(readlink -f "$nvcc")")")
   echo "$folder"
 }

@@ -22,7 +22,8 @@ struct AverageKernel {
 
   StepView<T> step;
   mpm::FlowingArrays<T> arrays;
-  int number;  ///< number of the set
+  const void* law;  ///< law of the set, where kernels are run
+  int number;       ///< number of the set
   double mass;
 
   /// visit(particle) for those of the cell above a node.
@@ -50,7 +51,14 @@ struct AverageKernel {
   }
 
   void operator()(long node) const {
-    const Particles particles(arrays);
+    mpm::FlowingArrays<T> with_pressure = arrays;
+    if constexpr (!finds_pressure(LawType::kStressFrom)) {
+      const W speed = static_cast<const LawType*>(law)->wave_speed(
+          mpm::Matrix3<W>{W(1.0), W(0.0), W(0.0), W(0.0), W(1.0), W(0.0), W(0.0), W(0.0), W(1.0)},
+          mpm::Symmetric3<W>{W(0.0), W(0.0), W(0.0), W(0.0), W(0.0), W(0.0)}, W(1.0));
+      with_pressure.least_pressure = Particles::kPressure * speed.v * speed.v;
+    }
+    const Particles particles(with_pressure);
     double sum = 0.0, volume = 0.0, stress[Stored::kCount] = {};
     int flowing = 0;
     each_of_cell(node, [&](std::uint32_t p) {
@@ -76,17 +84,11 @@ struct AverageKernel {
 
   static void run(Executor& run, const StepView<T>& step, int number, const void* law) {
     const SetView& set = step.sets[number];
-    AverageKernel kernel{step, {}, number, set.mass};
+    AverageKernel kernel{step, {}, law, number, set.mass};
     for (int i = 0; i < 6; ++i) kernel.arrays.stress[i] = step.particles.tau[i];
     for (int i = 0; i < 9; ++i) kernel.arrays.gradient[i] = step.particles.f[i];
     kernel.arrays.strain = step.particles.history[LawType::kPlasticStrain];
     kernel.arrays.strain_before = step.particles.strain_before;
-    if constexpr (!finds_pressure(LawType::kStressFrom)) {
-      const W speed = static_cast<const LawType*>(law)->wave_speed(
-          mpm::Matrix3<W>{W(1.0), W(0.0), W(0.0), W(0.0), W(1.0), W(0.0), W(0.0), W(0.0), W(1.0)},
-          mpm::Symmetric3<W>{W(0.0), W(0.0), W(0.0), W(0.0), W(0.0), W(0.0)}, W(1.0));
-      kernel.arrays.least_pressure = Particles::kPressure * speed.v * speed.v;
-    }
     run.for_each("gpu: mean stress of cells", step.nodes.nodes, kernel);
   }
 };

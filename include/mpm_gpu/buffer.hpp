@@ -1,12 +1,68 @@
-// Memory that kernels work on: an array that grows only when asked to, between steps, and never within one. On a card
-// it is the card's memory.
+// Memory that kernels work on: an array that grows only when asked to, between steps, and never within one. With
+// MPM_CUDA it is the card's memory, which the host reaches by copies alone.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#ifdef MPM_CUDA
+#include "mpm_gpu/card.hpp"
+#else
+#include <cstring>
+#endif
+
 namespace mpm_gpu {
+
+#ifdef MPM_CUDA
+/// Bytes of the card, zero at first.
+class Memory {
+ public:
+  Memory() = default;
+  explicit Memory(std::size_t bytes) : data_(bytes == 0 ? nullptr : card::allocate(bytes)), bytes_(bytes) {}
+  Memory(Memory&& other) noexcept { swap(other); }
+  Memory& operator=(Memory&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Memory() {
+    if (data_ != nullptr) card::release(data_);
+  }
+  void* data() const { return data_; }
+  std::size_t bytes() const { return bytes_; }
+  void swap(Memory& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(bytes_, other.bytes_);
+  }
+  void upload(std::size_t at, const void* from, std::size_t bytes) {
+    card::upload(static_cast<char*>(data_) + at, from, bytes);
+  }
+  void download(std::size_t at, void* to, std::size_t bytes) const {
+    card::download(to, static_cast<const char*>(data_) + at, bytes);
+  }
+
+ private:
+  void* data_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+#else
+/// Bytes of the processor, zero at first.
+class Memory {
+ public:
+  Memory() = default;
+  explicit Memory(std::size_t bytes) : bytes_(bytes) {}
+  void* data() const { return const_cast<unsigned char*>(bytes_.data()); }
+  std::size_t bytes() const { return bytes_.size(); }
+  void swap(Memory& other) noexcept { bytes_.swap(other.bytes_); }
+  void upload(std::size_t at, const void* from, std::size_t bytes) { std::memcpy(bytes_.data() + at, from, bytes); }
+  void download(std::size_t at, void* to, std::size_t bytes) const { std::memcpy(to, bytes_.data() + at, bytes); }
+
+ private:
+  std::vector<unsigned char> bytes_;
+};
+#endif
 
 template <class T>
 class Buffer {
@@ -15,18 +71,43 @@ class Buffer {
  public:
   /// Makes room for so many; what was there before is lost if that is more than there was.
   void fit(long count) {
-    if (count > static_cast<long>(values_.size())) values_.assign(static_cast<std::size_t>(count), T{});
+    if (count <= size()) return;
+    memory_ = Memory();  // given back first, so that both need not fit
+    memory_ = Memory(static_cast<std::size_t>(count) * sizeof(T));
   }
-  T* data() { return values_.data(); }
-  const T* data() const { return values_.data(); }
-  T& operator[](long i) { return values_[static_cast<std::size_t>(i)]; }
-  const T& operator[](long i) const { return values_[static_cast<std::size_t>(i)]; }
-  long size() const { return static_cast<long>(values_.size()); }
-  std::size_t bytes() const { return values_.size() * sizeof(T); }
-  void swap(Buffer& other) noexcept { values_.swap(other.values_); }
+  /// For kernels: the host may not look there.
+  T* data() { return static_cast<T*>(memory_.data()); }
+  const T* data() const { return static_cast<const T*>(memory_.data()); }
+  long size() const { return static_cast<long>(memory_.bytes() / sizeof(T)); }
+  std::size_t bytes() const { return memory_.bytes(); }
+  void swap(Buffer& other) noexcept { memory_.swap(other.memory_); }
+
+  /// Copies from the host, to place `first` and on.
+  void upload(const T* from, long count, long first = 0) {
+    if (count > 0) memory_.upload(static_cast<std::size_t>(first) * sizeof(T), from, count_bytes(count));
+  }
+  void upload(const std::vector<T>& from, long first = 0) {
+    upload(from.data(), static_cast<long>(from.size()), first);
+  }
+  /// Copies to the host, from place `first` and on.
+  void download(T* to, long count, long first = 0) const {
+    if (count > 0) memory_.download(static_cast<std::size_t>(first) * sizeof(T), to, count_bytes(count));
+  }
+  std::vector<T> download() const {
+    std::vector<T> all(static_cast<std::size_t>(size()));
+    download(all.data(), size());
+    return all;
+  }
+  /// A copy of one number, for errors and sums.
+  T get(long i) const {
+    T one;
+    download(&one, 1, i);
+    return one;
+  }
 
  private:
-  std::vector<T> values_;
+  static std::size_t count_bytes(long count) { return static_cast<std::size_t>(count) * sizeof(T); }
+  Memory memory_;
 };
 
 }  // namespace mpm_gpu

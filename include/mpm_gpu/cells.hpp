@@ -5,17 +5,11 @@
 
 #include <vector>
 
-#include "mpm/math/error.hpp"
+#include "mpm_gpu/error.hpp"
 #include "mpm_gpu/executor.hpp"
 #include "mpm_gpu/views.hpp"
 
 namespace mpm_gpu {
-
-/// Refusal or failure of this library, in one line with a remedy.
-class GpuError : public mpm::Error {
- public:
-  using mpm::Error::Error;
-};
 
 class CellTable {
  public:

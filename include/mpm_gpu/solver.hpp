@@ -39,14 +39,14 @@ struct ParticleStore {
 
   /// visit(buffer) for each.
   template <class Visit>
-  void each(Visit&& visit) {
-    for (auto& one : x) visit(one);
-    for (auto& one : v) visit(one);
-    for (auto& one : f) visit(one);
-    for (auto& one : tau) visit(one);
-    for (auto& one : history) visit(one);
+  void each(Visit&& visit) const {
+    for (const auto& one : x) visit(one);
+    for (const auto& one : v) visit(one);
+    for (const auto& one : f) visit(one);
+    for (const auto& one : tau) visit(one);
+    for (const auto& one : history) visit(one);
     visit(strain_before);
-    for (auto& one : affine) visit(one);
+    for (const auto& one : affine) visit(one);
     visit(id);
   }
 };
@@ -75,11 +75,12 @@ struct Impulses {
 template <class T>
 class Solver {
  public:
-  /// `laws`: of each set, its index in the list of laws and the law, which outlives the solver. The particles of the
+  /// `laws`: of each set, its index in the list of laws and the law, which is copied. The particles of the
   /// sets follow each other in the store. @throws GpuError for a law that cannot run there
   struct LawOfSet {
     std::size_t index;
     const void* law;
+    std::size_t bytes;  ///< size of the law, which goes to the device as it is
   };
   Solver(const GridView& grid, int dim, const Method& method, std::vector<SetView> sets, std::vector<LawOfSet> laws,
          ParticleStore<T> particles, Executor executor);
@@ -119,39 +120,59 @@ class Solver {
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
 
+  // Sums are constexpr, so that kernels may call them, too.
   /// Sums of the nodes in a step.
   struct OfNodes {
     double held[6][3], mass;  ///< held: by each face
-    OfNodes& operator+=(const OfNodes& other);
+    constexpr OfNodes& operator+=(const OfNodes& other) {
+      for (int f = 0; f < 6; ++f) {
+        for (int k = 0; k < 3; ++k) held[f][k] += other.held[f][k];
+      }
+      mass += other.mass;
+      return *this;
+    }
   };
   /// Faults of the particles in a step; numbers of the first ones.
   struct OfParticles {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
-    OfParticles& operator+=(const OfParticles& other);
+    constexpr OfParticles& operator+=(const OfParticles& other) {
+      left = left || other.left;
+      outside = outside < other.outside ? outside : other.outside;
+      inverted = inverted < other.inverted ? inverted : other.inverted;
+      return *this;
+    }
   };
   /// The fastest of some particles.
   struct Faster {
     double rank = -1.0, rate = -1.0;  ///< the rank of a rate that is not a number is above all others
     std::uint32_t particle = 0;
-    Faster& operator+=(const Faster& other);
+    constexpr Faster& operator+=(const Faster& other) {
+      if (other.rank > rank) *this = other;
+      return *this;
+    }
   };
   struct Momentum {
     double p[3] = {};
-    Momentum& operator+=(const Momentum& other);
+    constexpr Momentum& operator+=(const Momentum& other) {
+      for (int k = 0; k < 3; ++k) p[k] += other.p[k];
+      return *this;
+    }
   };
 
   GridView grid_;
   int dim_;
   Method method_;
   std::vector<SetView> sets_;
-  std::vector<LawOfSet> laws_;
+  Buffer<SetView> sets_there_;
+  std::vector<Buffer<unsigned char>> laws_;  ///< the law of each set
   ParticleStore<T> store_;
   Executor run_;
   const Passes<T>* passes_;
   std::vector<LawPass<T>> law_passes_;
   std::vector<RatePass<T>> rate_passes_;
+  std::vector<AveragePass<T>> average_passes_;  ///< null for a law whose stress is not averaged
   CellTable cells_;
   WallHolds holds_;
   long count_ = 0;

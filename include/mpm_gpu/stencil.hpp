@@ -164,7 +164,7 @@ void each_particle_of(const StepView<T>& step, long node, const int* number, Vis
   const long block = node / nodes_of_block(Dim);
   const Local<Dim> local = local_of<Dim>(node);
   for (int s = 0; s < step.set_count; ++s) {
-    const SetView set = step.sets[s];
+    const SetView set = step.sets_there[s];
     each_beside<Dim, kNodes>([&](const int* cell) {
       Local<Dim> there = local;
       int nearest[3] = {}, n[3] = {};

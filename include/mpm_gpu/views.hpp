@@ -32,8 +32,8 @@ struct GridView {
 };
 
 /// Nearest node of a place in cells, > -64; half way between two the upper one, as GridLayout::nearest() has it.
-inline int nearest_node(double cells) { return static_cast<int>(cells + (64.5 + 1e-12)) - 64; }
-inline double in_cells(const GridView& grid, int k, double x) { return (x - grid.origin[k]) * grid.inverse_cell[k]; }
+constexpr int nearest_node(double cells) { return static_cast<int>(cells + (64.5 + 1e-12)) - 64; }
+constexpr double in_cells(const GridView& grid, int k, double x) { return (x - grid.origin[k]) * grid.inverse_cell[k]; }
 
 /// One body.
 struct SetView {
@@ -93,7 +93,8 @@ struct StepView {
   GridView grid;
   ParticleView<T> particles;
   NodeView nodes;
-  const SetView* sets;
+  const SetView* sets;        ///< for the host, which hands out the passes
+  const SetView* sets_there;  ///< the same, for kernels
   int set_count;
   StepSettings settings;
 };

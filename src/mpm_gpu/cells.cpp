@@ -8,7 +8,7 @@ namespace mpm_gpu {
 namespace {
 
 /// Place of a key in an ascending list, which holds it; -1 if it does not.
-std::int32_t place_of(const std::uint64_t* keys, long count, std::uint64_t key) {
+constexpr std::int32_t place_of(const std::uint64_t* keys, long count, std::uint64_t key) {
   long first = 0, end = count;
   while (first < end) {
     const long middle = (first + end) / 2;
@@ -46,6 +46,7 @@ void CellTable::make_room(Executor& run, const double* const* x, const std::vect
   sets_ = static_cast<int>(sets.size());
   for (auto* buffer : {&key_, &other_key_, &cell_key_}) buffer->fit(particles_);
   for (auto* buffer : {&order_, &other_order_, &flag_, &node_}) buffer->fit(particles_);
+  run.reserve(key_.size());
   find_keys(run, x, sets);
   const long owners = find_owners(run);
   if (owners_room_ >= owners + owners / 2) return;
@@ -55,6 +56,7 @@ void CellTable::make_room(Executor& run, const double* const* x, const std::vect
   room_ = std::min(candidates, 4 * owners_room_ + 512);
   for (auto* buffer : {&key_, &other_key_}) buffer->fit(std::max(candidates, particles_));
   for (auto* buffer : {&order_, &other_order_, &flag_}) buffer->fit(std::max(candidates, particles_));
+  run.reserve(key_.size());
   owner_.fit(owners_room_);
   block_.fit(room_);
   neighbours_.fit(room_ * around_);
@@ -98,7 +100,7 @@ void CellTable::find_keys(Executor& run, const double* const* x, const std::vect
     std::uint32_t* order;
     std::uint32_t first;
     int dim;
-    void operator()(long i) const {
+    constexpr void operator()(long i) const {
       const long p = first + i;
       std::uint64_t block = 0, local = 0;
       for (int k = 0; k < dim; ++k) {

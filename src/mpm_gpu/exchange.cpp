@@ -130,8 +130,7 @@ template <class T>
 std::vector<typename Solver<T>::LawOfSet> pointers_to(const std::vector<mpm::Law>& laws) {
   std::vector<typename Solver<T>::LawOfSet> result;
   for (const mpm::Law& law : laws) {
-    const void* own = std::visit([](const auto& one) -> const void* { return &one; }, law);
-    result.push_back({law.index(), own});
+    std::visit([&](const auto& one) { result.push_back({law.index(), &one, sizeof(one)}); }, law);
   }
   return result;
 }
@@ -170,18 +169,34 @@ double least_mass(const std::vector<ParticleSet>& sets) {
   return 1e-30 * least;  // as the solver has it
 }
 
+/// About what a particle takes [bytes]: its numbers, those of Solver beside them, and 200 for keys, the table and nodes
+/// of a compact body in three dimensions, of which twice what is in use is reserved.
+template <class T>
+std::size_t bytes_of_particle(const ParticleSet& set) {
+  const std::size_t axes = set.x.size(), of_solver = axes * axes + 1;
+  return (axes + 1) * sizeof(double) + 3 * sizeof(std::uint32_t) + 1 + 200 +
+         (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + of_solver) * sizeof(T);
+}
+
 template <class T>
 ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
   ParticleStore<T> store;
   long count = 0, first = 0;
-  for (const ParticleSet& set : sets) count += set.size();
+  std::size_t bytes = 0;
+  for (const ParticleSet& set : sets) {
+    count += set.size();
+    bytes = std::max(bytes, bytes_of_particle<T>(set));
+  }
+  Executor::require(count, bytes);
   store.id.fit(count);
   for (const ParticleSet& set : sets) {
     const auto copy = [&](const auto& from, auto& to) {
       for (std::size_t c = 0; c < from.size(); ++c) {
+        using Number = std::decay_t<decltype(to[c].get(0))>;
+        std::vector<Number> numbers(set.size());
+        for (int p = 0; p < set.size(); ++p) numbers[p] = static_cast<Number>(from[c][p]);
         to[c].fit(count);
-        using Number = std::decay_t<decltype(to[c][0])>;
-        for (int p = 0; p < set.size(); ++p) to[c][first + p] = static_cast<Number>(from[c][p]);
+        to[c].upload(numbers, first);
       }
     };
     copy(set.x, store.x);
@@ -191,10 +206,10 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     copy(set.history, store.history);
     if (const auto* before = strain_before(set)) {
       store.strain_before.fit(count);
-      for (int p = 0; p < set.size(); ++p) store.strain_before[first + p] = (*before)[p];
+      store.strain_before.upload(std::vector<double>(before->begin(), before->end()), first);
     }
     copy(set.affine, store.affine);
-    for (int p = 0; p < set.size(); ++p) store.id[first + p] = set.id[p];
+    store.id.upload(std::vector<std::uint32_t>(set.id.begin(), set.id.end()), first);
     first += set.size();
   }
   return store;
@@ -247,28 +262,32 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
 template <class T>
 void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
   const ParticleStore<T>& store = solver_.particles();
+  const std::vector<std::uint32_t> id = store.id.download();
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ParticleSet& set = sets[s];
     const long first = solver_.sets()[s].first;
     const auto count = static_cast<std::size_t>(set.size());
     std::vector<long> there(count);  // places in the store, by id from the first
-    for (long i = first; i < first + set.size(); ++i) there[store.id[i] - set.first_id] = i;
+    for (long i = first; i < first + set.size(); ++i) there[id[i] - set.first_id] = i;
     std::vector<long> from_where(count);
     for (std::size_t p = 0; p < count; ++p) from_where[p] = there[set.id[p] - set.first_id];
     const auto copy = [&](const auto& from, auto& to) {
       for (std::size_t c = 0; c < to.size(); ++c) {
-        for (std::size_t p = 0; p < count; ++p) to[c].set(p, from[c][from_where[p]]);
+        const auto numbers = from[c].download();
+        for (std::size_t p = 0; p < count; ++p) to[c].set(p, numbers[from_where[p]]);
       }
     };
     for (std::size_t k = 0; k < set.x.size(); ++k) {
-      for (std::size_t p = 0; p < count; ++p) set.x[k][p] = store.x[k][from_where[p]];
+      const std::vector<double> places = store.x[k].download();
+      for (std::size_t p = 0; p < count; ++p) set.x[k][p] = places[from_where[p]];
     }
     copy(store.v, set.v);
     copy(store.f, set.f);
     copy(store.tau, set.tau);
     copy(store.history, set.history);
     if (auto* before = strain_before(set)) {
-      for (std::size_t p = 0; p < count; ++p) (*before)[p] = store.strain_before[from_where[p]];
+      const std::vector<double> strains = store.strain_before.download();
+      for (std::size_t p = 0; p < count; ++p) (*before)[p] = strains[from_where[p]];
     }
     copy(store.affine, set.affine);
   }

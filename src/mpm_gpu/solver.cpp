@@ -20,51 +20,29 @@ bool rubs(const GridView& grid, int dim) {
 }  // namespace
 
 template <class T>
-typename Solver<T>::OfNodes& Solver<T>::OfNodes::operator+=(const OfNodes& other) {
-  for (int f = 0; f < 6; ++f) {
-    for (int k = 0; k < 3; ++k) held[f][k] += other.held[f][k];
-  }
-  mass += other.mass;
-  return *this;
-}
-template <class T>
-typename Solver<T>::OfParticles& Solver<T>::OfParticles::operator+=(const OfParticles& other) {
-  left = left || other.left;
-  outside = std::min(outside, other.outside);
-  inverted = std::min(inverted, other.inverted);
-  return *this;
-}
-template <class T>
-typename Solver<T>::Faster& Solver<T>::Faster::operator+=(const Faster& other) {
-  if (other.rank > rank) *this = other;
-  return *this;
-}
-template <class T>
-typename Solver<T>::Momentum& Solver<T>::Momentum::operator+=(const Momentum& other) {
-  for (int k = 0; k < 3; ++k) p[k] += other.p[k];
-  return *this;
-}
-
-template <class T>
 Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vector<SetView> sets,
                   std::vector<LawOfSet> laws, ParticleStore<T> particles, Executor executor)
     : grid_(grid),
       dim_(dim),
       method_(method),
       sets_(std::move(sets)),
-      laws_(std::move(laws)),
       store_(std::move(particles)),
       run_(executor),
       passes_(&passes(dim, method.shape, T())),
       cells_(grid, dim),
       holds_(dim, rubs(grid, dim) ? 2 * dim : 0) {
-  for (const LawOfSet& law : laws_) {
+  for (const LawOfSet& law : laws) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     rate_passes_.push_back(rate_pass(dim, law.index, T()));
+    average_passes_.push_back(average_pass(dim, law.index, T()));
     if (law_passes_.back() == nullptr) {
-      throw GpuError("gpu: a law of a user's program does not run there: use --device cpu");
+      throw GpuError("gpu: a law of a user's program does not run there: run the scene on the processor");
     }
+    laws_.emplace_back().fit(static_cast<long>(law.bytes));
+    laws_.back().upload(static_cast<const unsigned char*>(law.law), static_cast<long>(law.bytes));
   }
+  sets_there_.fit(static_cast<long>(sets_.size()));
+  sets_there_.upload(sets_);
   for (const SetView& set : sets_) count_ += set.count;
   for (int c = 0; c < dim * dim; ++c) gradient_[c].fit(count_);
   for (int k = 0; k < dim && method.update != Update::usf; ++k) next_x_[k].fit(count_);
@@ -147,6 +125,7 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.increment = increment_.data();
   view.nodes.held = nodal_[3].data();
   view.sets = sets_.data();
+  view.sets_there = sets_there_.data();
   view.set_count = static_cast<int>(sets_.size());
   view.settings = {dt, dt, method_.flip, method_.from_start, method_.terms};
   return view;
@@ -180,7 +159,7 @@ template <class T>
 void Solver<T>::average(const StepView<T>& now) {
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     if (!sets_[s].averages) continue;
-    average_pass(dim_, laws_[s].index, T())(run_, now, static_cast<int>(s), laws_[s].law);
+    average_passes_[s](run_, now, static_cast<int>(s), laws_[s].data());
   }
 }
 
@@ -188,7 +167,7 @@ template <class T>
 void Solver<T>::strain(StepView<T> now, double dt) {
   now.settings.strain_dt = dt;
   passes_->gradient(run_, now);
-  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].law);
+  for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].data());
 }
 
 template <class T>
@@ -250,9 +229,9 @@ void Solver<T>::check() {
   must_sort_ = all.left;
   const auto fail = [&](std::uint32_t p, const char* what) {
     std::string place;
-    for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", store_.x[k][p]);
-    throw GpuError(fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", store_.id[p], place,
-                               what, steps_));
+    for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", store_.x[k].get(p));
+    throw GpuError(fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", store_.id.get(p),
+                               place, what, steps_));
   };
   if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
@@ -262,7 +241,7 @@ template <class T>
 typename Solver<T>::Fastest Solver<T>::fastest(int set, double cell) {
   const SetView& of = sets_[static_cast<std::size_t>(set)];
   double* rates = place_room_.data();
-  rate_passes_[static_cast<std::size_t>(set)](run_, view(0.0), set, laws_[static_cast<std::size_t>(set)].law, cell,
+  rate_passes_[static_cast<std::size_t>(set)](run_, view(0.0), set, laws_[static_cast<std::size_t>(set)].data(), cell,
                                               rates);
   const long first = of.first;
   const Faster found = run_.reduce<Faster>(
@@ -275,7 +254,7 @@ typename Solver<T>::Fastest Solver<T>::fastest(int set, double cell) {
       },
       of_faster_);
   Fastest fastest{found.rate, {}};
-  for (int k = 0; k < dim_; ++k) fastest.place[static_cast<std::size_t>(k)] = store_.x[k][found.particle];
+  for (int k = 0; k < dim_; ++k) fastest.place[static_cast<std::size_t>(k)] = store_.x[k].get(found.particle);
   return fastest;
 }
 

@@ -13,13 +13,32 @@ using mpm_gpu::Buffer;
 using mpm_gpu::Executor;
 using mpm_gpu::Visits;
 
+template <class T>
+Buffer<T> there(const std::vector<T>& here) {
+  Buffer<T> buffer;
+  buffer.fit(static_cast<long>(here.size()));
+  buffer.upload(here);
+  return buffer;
+}
+template <class T>
+std::vector<T> here(const T* there, long count) {
+  std::vector<T> numbers(static_cast<std::size_t>(count));
+#ifdef MPM_CUDA
+  mpm_gpu::card::download(numbers.data(), there, numbers.size() * sizeof(T));
+#else
+  std::copy_n(there, count, numbers.begin());
+#endif
+  return numbers;
+}
+
 TEST(GpuExecutor, VisitsEveryIndexOnce) {
   for (const Visits visits : {Visits::forwards, Visits::backwards, Visits::shuffled}) {
     for (const int threads : {1, 3}) {
       for (const long count : {0L, 1L, 2L, 7L, 1000L}) {
-        std::vector<int> seen(count);
-        int* to = seen.data();
+        Buffer<int> counts = there(std::vector<int>(count));
+        int* to = counts.data();
         Executor(visits, threads).for_each("test", count, [=](long i) { ++to[i]; });
+        const std::vector<int> seen = counts.download();
         EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), count);
       }
     }
@@ -37,24 +56,38 @@ TEST(GpuExecutor, ReducesInOneOrder) {
   EXPECT_EQ(sum, Executor(Visits::shuffled, 3).reduce<double>("test", kCount, number, partial));
 }
 
+// More numbers than groups of groups: n (n + 1) / 2 of the whole numbers to n, which double sums exactly.
+TEST(GpuExecutor, ReducesGroupsOfGroups) {
+  constexpr long kCount = 200'000;
+  Buffer<double> partial;
+  partial.fit(Executor::groups_of(kCount));
+  const auto number = [](long i) { return static_cast<double>(i + 1); };
+  EXPECT_EQ(Executor().reduce<double>("test", kCount, number, partial), 20'000'100'000.0);
+  EXPECT_EQ(Executor(Visits::shuffled, 3).reduce<double>("test", kCount, number, partial), 20'000'100'000.0);
+}
+
 TEST(GpuExecutor, ScansAndSorts) {
   Executor run;
-  std::vector<std::uint32_t> numbers = {3, 0, 5, 1};
+  run.reserve(3000);
+  Buffer<std::uint32_t> numbers = there<std::uint32_t>({3, 0, 5, 1});
   EXPECT_EQ(run.exclusive_scan(numbers.data(), numbers.data(), 4), 9U);
-  EXPECT_EQ(numbers, (std::vector<std::uint32_t>{0, 3, 3, 8}));
+  EXPECT_EQ(numbers.download(), (std::vector<std::uint32_t>{0, 3, 3, 8}));
 
   std::mt19937_64 random(7);
   constexpr std::uint64_t kLimit = 1ULL << 40;
-  std::vector<std::uint64_t> keys(3000), other(3000);
-  std::vector<std::uint32_t> values(3000), room(3000);
+  std::vector<std::uint64_t> keys(3000);
+  std::vector<std::uint32_t> values(3000);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     keys[i] = random() % 50 * (kLimit / 50);  // many are equal
     values[i] = static_cast<std::uint32_t>(i);
   }
   std::vector<std::uint32_t> expected = values;
   std::stable_sort(expected.begin(), expected.end(), [&](auto a, auto b) { return keys[a] < keys[b]; });
-  run.stable_sort(keys.data(), values.data(), other.data(), room.data(), 3000, kLimit);
-  EXPECT_EQ(values, expected);
+  Buffer<std::uint64_t> sorted = there(keys), other = there(keys);
+  Buffer<std::uint32_t> order = there(values), room = there(values);
+  run.stable_sort(sorted.data(), order.data(), other.data(), room.data(), 3000, kLimit);
+  EXPECT_EQ(order.download(), expected);
+  keys = sorted.download();
   EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
 }
 
@@ -72,28 +105,32 @@ TEST(GpuCells, SortsAndFindsBlocks) {
   sets[0].count = 3;
   sets[1].first = 3;
   sets[1].count = 2;
-  const double* places[] = {x.data(), z.data(), nullptr};
+  const Buffer<double> along_x = there(x), along_z = there(z);
+  const double* places[] = {along_x.data(), along_z.data(), nullptr};
   mpm_gpu::CellTable cells(grid, 2);
   Executor run(Visits::backwards);
   cells.make_room(run, places, sets);
   cells.sort(run, places, sets);
-  const std::vector<std::uint32_t> order(cells.order(), cells.order() + 5);
+  const std::vector<std::uint32_t> order = here(cells.order(), 5);
   EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 0, 2, 4, 3}));
   // Blocks (0, 0), (1, 0) and (-1, 0) hold particles; with those around them they are 5 by 3.
   EXPECT_EQ(cells.blocks(), 15);
   const mpm_gpu::NodeView nodes = cells.view();
   ASSERT_EQ(nodes.nodes, 15 * 16);
-  const std::uint32_t *of = cells.node_of_particles(), five_one = of[1], one_one = of[0];
+  const std::vector<std::uint32_t> of = here(cells.node_of_particles(), 5), begin = here(nodes.begin, 2 * nodes.nodes),
+                                   end = here(nodes.end, 2 * nodes.nodes);
+  const std::uint32_t five_one = of[1], one_one = of[0];
   EXPECT_EQ(of[2], five_one);
   EXPECT_EQ(of[4], one_one);
-  EXPECT_EQ(nodes.end[five_one] - nodes.begin[five_one], 2U);
-  EXPECT_EQ(nodes.begin[five_one], 1U);
-  EXPECT_EQ(nodes.end[nodes.nodes + one_one] - nodes.begin[nodes.nodes + one_one], 1U);
-  EXPECT_EQ(nodes.begin[nodes.nodes + one_one], 4U);
-  EXPECT_EQ(nodes.end[nodes.nodes + five_one], nodes.begin[nodes.nodes + five_one]);
+  EXPECT_EQ(end[five_one] - begin[five_one], 2U);
+  EXPECT_EQ(begin[five_one], 1U);
+  EXPECT_EQ(end[nodes.nodes + one_one] - begin[nodes.nodes + one_one], 1U);
+  EXPECT_EQ(begin[nodes.nodes + one_one], 4U);
+  EXPECT_EQ(end[nodes.nodes + five_one], begin[nodes.nodes + five_one]);
   // The block of node (5, 1) is the one after that of (1, 1) along x; none is beside the outermost.
-  EXPECT_EQ(nodes.neighbours[one_one / 16 * 9 + 7], static_cast<std::int32_t>(five_one / 16));
-  EXPECT_EQ(nodes.neighbours[0], -1);
+  const std::vector<std::int32_t> neighbours = here(nodes.neighbours, nodes.blocks * 9);
+  EXPECT_EQ(neighbours[one_one / 16 * 9 + 7], static_cast<std::int32_t>(five_one / 16));
+  EXPECT_EQ(neighbours[0], -1);
 }
 
 }  // namespace gpu_cells_test

@@ -178,8 +178,10 @@ std::vector<unsigned char> bytes_after(SceneOf scene, Executor executor, int ste
     const auto* from = static_cast<const unsigned char*>(data);
     bytes.insert(bytes.end(), from, from + size);
   };
-  mpm_gpu::ParticleStore<T> store = run.solver().particles();
-  store.each([&](const auto& buffer) { add(buffer.data(), buffer.bytes()); });
+  run.solver().particles().each([&](const auto& buffer) {
+    const auto numbers = buffer.download();
+    add(numbers.data(), buffer.bytes());
+  });
   const auto momentum = run.solver().momentum();
   add(momentum.data(), sizeof(momentum));
   add(&run.solver().impulses(), sizeof(mpm_gpu::Impulses));

@@ -7,8 +7,6 @@
 // Marks that CUDA's headers define and clang's wrappers of the standard library want.
 #define __host__ __attribute__((host))
 #define __device__ __attribute__((device))
-// A function that laws call on plain numbers: one instruction of the device.
-extern "C" inline __device__ double sqrt(double x) { return __builtin_sqrt(x); }
 #include <stdlib.h>
 
 #include <algorithm>
@@ -25,6 +23,8 @@ extern "C" inline __device__ double sqrt(double x) { return __builtin_sqrt(x); }
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "mpm_gpu/device/device_functions.hpp"
 
 #pragma clang force_cuda_host_device begin
 #include "mpm/shape/bspline.hpp"

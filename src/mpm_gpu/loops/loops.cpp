@@ -1,27 +1,18 @@
-#include "mpm_gpu/executor.hpp"
+#include "mpm_gpu/loops.hpp"
 
 #include <array>
-#include <numeric>
 #include <utility>
 
 #include "mpm/loop/loop.hpp"
 
 namespace mpm_gpu {
 
-long Executor::stride(long count) {
-  if (count < 3) return 1;
-  // About the golden section of the count, so that neighbours are visited far from each other.
-  long stride = static_cast<long>(0.618 * static_cast<double>(count)) + 1;
-  while (std::gcd(stride, count) != 1) ++stride;
-  return stride;
-}
-
-void Executor::parts(const char* name, long count, void (*run)(const void*, long, long), const void* pass) {
+void Loops::parts(const char* name, long count, void (*run)(const void*, long, long), const void* pass) {
   if (count == 0) return;
   mpm::for_parts(name, threads_, count, [=](long first, long end, int) { run(pass, first, end); });
 }
 
-std::uint32_t Executor::exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count) {
+std::uint32_t Loops::exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count) {
   std::uint32_t sum = 0;
   for (long i = 0; i < count; ++i) {
     const std::uint32_t next = from[i];  // they may be one array
@@ -31,8 +22,8 @@ std::uint32_t Executor::exclusive_scan(const std::uint32_t* from, std::uint32_t*
   return sum;
 }
 
-void Executor::stable_sort(std::uint64_t* keys, std::uint32_t* values, std::uint64_t* other_keys,
-                           std::uint32_t* other_values, long count, std::uint64_t limit) {
+void Loops::stable_sort(std::uint64_t* keys, std::uint32_t* values, std::uint64_t* other_keys,
+                        std::uint32_t* other_values, long count, std::uint64_t limit) {
   constexpr int kBits = 11, kDigits = 1 << kBits;
   std::uint64_t *from = keys, *to = other_keys;
   std::uint32_t *values_from = values, *values_to = other_values;

@@ -1,0 +1,94 @@
+// Steps a second of an elastic block and of a block of soil that fall on a floor, by number of particles and precision,
+// and on a card the time of each kernel. gpu_benchmark [PARTICLES...]: 64000, 1000000 and 4000000 where none is given.
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include "../../test/gpu/gpu_scenes.hpp"
+
+namespace {
+
+using mpm::SimulationDefinition;
+using Clock = std::chrono::steady_clock;
+
+#ifdef MPM_CUDA
+constexpr int kSteps = 100, kStepsOfProfile = 20;
+#else
+constexpr int kSteps = 5;
+#endif
+
+/// A cube of about so many particles, eight in a cell, that moves down onto a fixed floor in a domain around it.
+SimulationDefinition cube(long particles, bool soil, mpm::Precision precision) {
+  SimulationDefinition d = gpu_scenes::empty_scene(mpm::GeometryKind::solid, precision);
+  const double cells = std::round(std::cbrt(static_cast<double>(particles) / 8.0));
+  d.grid.max = mpm::Vec3::Constant(d.grid.cell.x() * (cells + 8.0));
+  d.walls[4].kind = mpm::WallKind::fixed;
+  if (soil) {
+    mpm::DruckerPragerDefinition law;
+    law.elasticity = {1e6, 0.3};
+    law.friction_angle = 0.6;
+    d.materials = {{"soil", 1600.0, law}};
+  } else {
+    mpm::NeoHookeanDefinition law;
+    law.elasticity = {1e6, 0.3};
+    d.materials = {{"elastic", 1000.0, law}};
+  }
+  const mpm::Vec3 from(4.0, 4.0, 0.1), to = from + mpm::Vec3::Constant(cells);
+  d.bodies = {gpu_scenes::block(d, d.materials[0].name, from, to, {0.0, 0.0, -1.0})};
+  return d;
+}
+
+template <class T>
+void measure(long particles, bool soil) {
+  const SimulationDefinition d =
+      cube(particles, soil, sizeof(T) == 8 ? mpm::Precision::float64 : mpm::Precision::float32);
+  mpm::SimulationProbe solver(d);
+  mpm_gpu::DeviceRun<T> run(d, solver.sets());
+  const double dt = gpu_scenes::step_of(d), count = static_cast<double>(d.bodies[0].positions.size());
+  for (int i = 0; i < kSteps / 5; ++i) run.solver().step(dt);
+  // Every step ends with a number that the host waits for, so that the clock needs nothing more.
+  const long sorts = run.solver().sorts();
+  const auto begin = Clock::now();
+  for (int i = 0; i < kSteps; ++i) run.solver().step(dt);
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
+  fmt::print("{:<8} {:<6} {:>9.0f} {:>10.3f} {:>12.1f} {:>9.0f} {:>6}\n", soil ? "soil" : "elastic",
+             sizeof(T) == 8 ? "double" : "single", count, 1e3 * seconds, 1e-6 * count / seconds,
+             static_cast<double>(run.solver().bytes()) / count, run.solver().sorts() - sorts);
+#ifdef MPM_CUDA
+  mpm_gpu::card::profile(true);
+  for (int i = 0; i < kStepsOfProfile; ++i) run.solver().step(dt);
+  for (const mpm_gpu::card::Row& row : mpm_gpu::card::profiled()) {
+    fmt::print("    {:<40} {:>8.1f} launches {:>9.3f} ms a step\n", row.name,
+               static_cast<double>(row.launches) / kStepsOfProfile, 1e3 * row.seconds / kStepsOfProfile);
+  }
+  mpm_gpu::card::profile(false);
+#endif
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+#ifdef MPM_CUDA
+    fmt::print("card: {}\n", mpm_gpu::card::name());
+#endif
+    fmt::print("{:<8} {:<6} {:>9} {:>10} {:>12} {:>9} {:>6}\n", "scene", "", "particles", "ms a step", "M p-steps/s",
+               "B a part.", "sorts");
+    std::vector<long> counts;
+    for (int i = 1; i < argc; ++i) counts.push_back(std::atol(argv[i]));
+    if (counts.empty()) counts = {64'000, 1'000'000, 4'000'000};
+    for (const long count : counts) {
+      for (const bool soil : {false, true}) {
+        measure<double>(count, soil);
+        measure<float>(count, soil);
+      }
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}

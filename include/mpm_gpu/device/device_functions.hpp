@@ -1,0 +1,9 @@
+// Functions of the standard library that a device lacks and that laws call on single numbers: overloads for the device,
+// which a compiler takes there in place of the host's. For clang, after the headers that declare the host's.
+#pragma once
+
+__attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x); }
+
+namespace std {
+__attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x); }
+}  // namespace std

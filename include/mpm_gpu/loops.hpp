@@ -1,0 +1,63 @@
+// Backend of the executor on the processor: kernels in loops, so that the logic, the order of sums and the agreement
+// with the solver are checked without a card: forwards, backwards, shuffled, on several threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "mpm_gpu/visits.hpp"
+
+namespace mpm_gpu {
+
+class Loops {
+ public:
+  explicit Loops(Visits visits = Visits::forwards, int threads = 1) : visits_(visits), threads_(threads) {}
+
+  /// kernel(i) for i from 0 to count - 1. `name`: of its row in a profile (loop/profile.hpp).
+  template <class Kernel>
+  void for_each(const char* name, long count, const Kernel& kernel) {
+    static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel goes to a device as bytes");
+    const Pass<Kernel> pass{&kernel, visits_, count, stride_of(count)};
+    parts(name, count, &Pass<Kernel>::run, &pass);
+  }
+
+  /// to[i] = sum of from[0 … i - 1]; returns the sum of all. The two may be one array.
+  std::uint32_t exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count);
+
+  /// Sorts keys below `limit`, and the values with them; of equal keys the order stays. Uses the other arrays as room.
+  void stable_sort(std::uint64_t* keys, std::uint32_t* values, std::uint64_t* other_keys, std::uint32_t* other_values,
+                   long count, std::uint64_t limit);
+
+  /// Makes room for scans and sorts of so many numbers; between steps only. Loops need none.
+  void reserve(long /*count*/) {}
+  /// @throws GpuError saying how many would fit, where so many particles of so many bytes do not; a processor's memory
+  /// is not asked
+  static void require(long /*particles*/, std::size_t /*bytes_of_each*/) {}
+
+ private:
+  template <class Kernel>
+  struct Pass {
+    const Kernel* kernel;
+    Visits visits;
+    long count, stride;
+    static void run(const void* pass, long first, long end) {
+      const Pass self = *static_cast<const Pass*>(pass);
+      const Kernel kernel = *self.kernel;
+      if (self.visits == Visits::forwards) {
+        for (long i = first; i < end; ++i) kernel(i);
+      } else if (self.visits == Visits::backwards) {
+        for (long i = first; i < end; ++i) kernel(self.count - 1 - i);
+      } else {
+        for (long i = first; i < end; ++i) kernel(i * self.stride % self.count);
+      }
+    }
+  };
+  /// run(pass, first, end) for a part of the indices on each thread.
+  void parts(const char* name, long count, void (*run)(const void*, long, long), const void* pass);
+
+  Visits visits_;
+  int threads_;
+};
+
+}  // namespace mpm_gpu

@@ -1,0 +1,70 @@
+# Makes the library mpm_gpu_cuda, of steps on a card: files of kernels and launches by clang, CUB's scan and sort by nvcc, the
+# rest by the compiler of all else; and the tests and the benchmark over it. Target gpu_folder puts both and the libraries that
+# they need into the folder gpu/ of the build, for a machine with a card (scripts/test_gpu).
+
+find_package(CUDAToolkit 12.0 QUIET)
+if(NOT CUDAToolkit_FOUND OR NOT CUDAToolkit_NVCC_EXECUTABLE)
+  message(FATAL_ERROR "MPM_GPU needs a CUDA toolkit of 12.0 or later: install one, and set CUDA_HOME or put its nvcc on PATH")
+endif()
+find_program(MPM_CLANG NAMES clang++ clang++-16 clang++-15 clang++-14 DOC "Compiler of device code")
+if(NOT MPM_CLANG)
+  message(FATAL_ERROR "MPM_GPU needs clang 14 or later: install the package clang")
+endif()
+get_filename_component(cuda_folder ${CUDAToolkit_BIN_DIR} DIRECTORY)
+
+# mpm_compile_for_card(OBJECTS SOURCE OPTION...): adds to the list the object of a file of kernels and launches.
+set(compile_for_card ${PROJECT_SOURCE_DIR}/scripts/lib/compile_for_card)
+function(mpm_compile_for_card objects source)
+  get_filename_component(name ${source} NAME_WE)
+  set(object ${CMAKE_CURRENT_BINARY_DIR}/card/${name}.o)
+  file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/card)
+  add_custom_command(OUTPUT ${object}
+    COMMAND ${compile_for_card} ${MPM_CLANG} ${cuda_folder} ${object} ${PROJECT_SOURCE_DIR}/${source}
+      -I${PROJECT_SOURCE_DIR}/include "-isystem$<JOIN:$<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>,;-isystem>"
+      -DFMT_SHARED -Wall -Wextra -O2 ${ARGN}
+    DEPENDS ${source} ${compile_for_card} DEPFILE ${object}.d COMMENT "Building ${source} for cards" VERBATIM
+    COMMAND_EXPAND_LISTS)
+  set(${objects} ${${objects}} ${object} PARENT_SCOPE)
+endfunction()
+
+set(card_objects)
+foreach(name cells solver)
+  mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -ffp-contract=off)
+endforeach()
+foreach(name passes laws)
+  mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -DMPM_ONE_LANE -Dmpm=mpm_lane -ffp-contract=fast)
+endforeach()
+set(sort_and_scan ${CMAKE_CURRENT_BINARY_DIR}/card/sort_and_scan.o)
+add_custom_command(OUTPUT ${sort_and_scan}
+  COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} -ccbin ${CMAKE_CXX_COMPILER} -std=c++17 -O2 -DMPM_CUDA -I${PROJECT_SOURCE_DIR}/include
+    -gencode arch=compute_80,code=[sm_80,compute_80] -gencode arch=compute_90,code=sm_90
+    -MD -MF ${sort_and_scan}.d -c -o ${sort_and_scan} ${PROJECT_SOURCE_DIR}/src/mpm_gpu/device/sort_and_scan.cu
+  DEPENDS src/mpm_gpu/device/sort_and_scan.cu DEPFILE ${sort_and_scan}.d COMMENT "Building scan and sort for cards" VERBATIM)
+
+add_library(mpm_gpu_cuda STATIC EXCLUDE_FROM_ALL src/mpm_gpu/exchange.cpp src/mpm_gpu/device/card.cpp ${card_objects}
+  ${sort_and_scan})
+set_source_files_properties(${card_objects} ${sort_and_scan} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+target_compile_definitions(mpm_gpu_cuda PUBLIC MPM_CUDA)
+target_include_directories(mpm_gpu_cuda SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DIRS})
+target_link_libraries(mpm_gpu_cuda PUBLIC mpm CUDA::cudart_static PRIVATE mpm_options fmt::fmt)
+
+# Tests: that of the executor has kernels of its own.
+set(card_test_objects)
+mpm_compile_for_card(card_test_objects test/gpu/device/cells_test.cu -ffp-contract=off)
+file(GLOB card_tests CONFIGURE_DEPENDS test/gpu/*_test.cpp)
+list(FILTER card_tests EXCLUDE REGEX gpu_cells_test)
+add_executable(gpu_tests_cuda EXCLUDE_FROM_ALL ${card_tests} ${card_test_objects})
+set_source_files_properties(${card_test_objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+target_link_libraries(gpu_tests_cuda PRIVATE mpm_gpu_cuda test_pages test_main mpm_options)
+
+# The benchmark, and the same over loops on the processor, which shows that it works.
+add_executable(gpu_benchmark EXCLUDE_FROM_ALL benchmark/gpu/gpu_benchmark.cpp)
+target_link_libraries(gpu_benchmark PRIVATE mpm_gpu test_pages mpm_options fmt::fmt)
+add_executable(gpu_benchmark_cuda EXCLUDE_FROM_ALL benchmark/gpu/gpu_benchmark.cpp)
+target_link_libraries(gpu_benchmark_cuda PRIVATE mpm_gpu_cuda test_pages mpm_options fmt::fmt)
+
+add_custom_target(gpu_folder
+  COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/collect_programs ${CMAKE_CURRENT_BINARY_DIR}/gpu $<TARGET_FILE:gpu_tests_cuda>
+    $<TARGET_FILE:gpu_benchmark_cuda>
+  VERBATIM)
+add_dependencies(gpu_folder gpu_tests_cuda gpu_benchmark_cuda)

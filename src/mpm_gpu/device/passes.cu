@@ -1,0 +1,11 @@
+// The kernels and launches of lane/passes.cpp, for a card.
+#include "mpm_gpu/device/host_headers.hpp"
+
+#pragma clang force_cuda_host_device begin
+#include "mpm/shape/bspline.hpp"
+#include "mpm/shape/ugimp.hpp"
+#include "mpm_gpu/node_passes.hpp"
+#include "mpm_gpu/particle_passes.hpp"
+#pragma clang force_cuda_host_device end
+
+#include "../lane/passes.cpp"

@@ -6,7 +6,7 @@
 
 namespace mpm_gpu {
 
-/// Maker of the device, for SimulationOptions::device. It @throws GpuError for what does not run there.
-mpm::MakeDevice device_by(Executor executor = Executor());
+/// Maker of the device, for SimulationOptions::device.
+mpm::DeviceMaker device_by(Executor executor = Executor());
 
 }  // namespace mpm_gpu

@@ -15,6 +15,8 @@ namespace mpm_gpu {
 
 /// The first feature of a scene that does not run there, by the scene's words; empty where all does.
 std::string refused(const mpm::SimulationDefinition& definition);
+/// The same of what steps can, but a whole simulation cannot have there yet.
+std::string refused_in_a_run(const mpm::SimulationDefinition& definition);
 
 /// A run of this library that begins with the particles of a simulation, and its laws.
 template <class T>

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <memory>
-#include <optional>
+#include <string>
 #include <utility>
 
 #include "mpm/modules/with_precision.hpp"
@@ -32,8 +32,12 @@ class RunDevice final : public mpm::Device {
     told([&] { run_->solver().make_room(); });
   }
   Fastest fastest(int set, double cell) override {
-    const auto found = run_->solver().fastest(set, cell);
-    return {found.rate, in_world(found.place)};
+    Fastest fastest{};
+    told([&] {
+      const auto found = run_->solver().fastest(set, cell);
+      fastest = {found.rate, in_world(found.place)};
+    });
+    return fastest;
   }
   ImpulseAccount take_given(int face) override {
     const Impulses::OfFace& now = run_->solver().impulses().face[face];
@@ -46,11 +50,16 @@ class RunDevice final : public mpm::Device {
     before = now;
     return given;
   }
-  void fetch(std::vector<ParticleSet>& sets) const override { run_->write_to(sets); }
-  void take(const std::vector<ParticleSet>& sets) override { begin(sets); }
+  void fetch(std::vector<ParticleSet>& sets) const override {
+    told([&] { run_->write_to(sets); });
+  }
+  void take(const std::vector<ParticleSet>& sets) override {
+    told([&] { begin(sets); });
+  }
 
  private:
   void begin(const std::vector<ParticleSet>& sets) {
+    run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
     told_ = {};
   }
@@ -78,12 +87,19 @@ class RunDevice final : public mpm::Device {
 
 }  // namespace
 
-mpm::MakeDevice device_by(Executor executor) {
-  return [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets) {
+mpm::DeviceMaker device_by(Executor executor) {
+  mpm::DeviceMaker maker;
+  maker.refused = [](const mpm::SimulationDefinition& definition) -> std::string {
+    std::string feature = refused(definition);
+    if (feature.empty()) feature = refused_in_a_run(definition);
+    return feature.empty() ? "" : "gpu: " + feature + " does not run there: run the scene on the processor";
+  };
+  maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets) {
     return mpm::with_precision(definition.method.precision, [&](auto zero) -> std::unique_ptr<mpm::Device> {
       return std::make_unique<RunDevice<decltype(zero)>>(definition, sets, executor);
     });
   };
+  return maker;
 }
 
 }  // namespace mpm_gpu

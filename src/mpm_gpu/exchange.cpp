@@ -28,6 +28,10 @@ bool any_user_law(const SimulationDefinition& d) {
   return std::any_of(d.materials.begin(), d.materials.end(),
                      [](const auto& m) { return std::holds_alternative<mpm::UserLawDefinition>(m.law); });
 }
+bool any_liquid(const SimulationDefinition& d) {
+  return std::any_of(d.materials.begin(), d.materials.end(),
+                     [](const auto& m) { return traits_of(make_law(m)).matter == mpm::Matter::liquid; });
+}
 bool several_fields(const SimulationDefinition& d) {
   return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
 }
@@ -245,6 +249,14 @@ std::string refused(const SimulationDefinition& d) {
     if (feature.used) return feature.name;
   }
   return {};
+}
+
+std::string refused_in_a_run(const SimulationDefinition& d) {
+  // How they held a node in the step before is in no checkpoint of a device, and in an edge two have one account.
+  if (any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }))
+    return "a frictional wall in a run";
+  if (any_liquid(d)) return "a liquid, whose volume is corrected,";
+  return d.grid.leave_limit > 0 ? "grid.leave_limit" : "";
 }
 
 template <class T>

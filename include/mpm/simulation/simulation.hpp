@@ -52,8 +52,13 @@ struct RunParts;
 /// Adds the modules of a physics to a run (modules/run_parts.hpp).
 using AddModules = std::function<void(RunParts&)>;
 
-/// Makes the processor that takes the steps of an assembled run, from its particles (step/device.hpp).
-using MakeDevice = std::function<std::unique_ptr<Device>(const SimulationDefinition&, const std::vector<ParticleSet>&)>;
+/// Maker of the processor that takes the steps of a run (step/device.hpp).
+struct DeviceMaker {
+  /// Names what of a scene does not run there, with the remedy; empty where all does. Asked before anything else.
+  std::function<std::string(const SimulationDefinition&)> refused;
+  /// Makes it, from the particles of the assembled run.
+  std::function<std::unique_ptr<Device>(const SimulationDefinition&, const std::vector<ParticleSet>&)> make;
+};
 
 struct SimulationOptions {
   int threads = 0;                       ///< 0: as many as the machine has, with at least 4,000 particles each
@@ -71,9 +76,9 @@ struct SimulationOptions {
   std::function<bool()> interrupt = {};
   /// Counts where the wall time of steps goes; null: nowhere. It outlives the simulation.
   TimeProfile* profile = nullptr;
-  /// Another processor, which takes all steps; null: this one does. In one process only, and without modules of the
+  /// Another processor, which takes all steps; none: this one does. In one process only, and without modules of the
   /// caller.
-  MakeDevice device = {};
+  std::optional<DeviceMaker> device = {};
 };
 
 class Simulation {

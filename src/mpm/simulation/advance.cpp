@@ -105,17 +105,21 @@ bool Simulation::State::step(double start, double dt, bool more) {
 
 void Simulation::State::fetch() {
   if (!device_ahead) return;
+  device->fetch(sets);
   device_ahead = false;
   moved_by_device = true;
-  device->fetch(sets);
   tell_modules();
 }
 
-void Simulation::State::hand_to_device(const MakeDevice& make) {
+void Simulation::State::begin_modules() {
   for (Module* module : modules.list()) {
     if (auto* average = dynamic_cast<StressAverage*>(module)) average->begin();
   }
-  device = make(definition, sets);
+}
+
+void Simulation::State::hand_to_device(const DeviceMaker& maker) {
+  begin_modules();
+  device = maker.make(definition, sets);
 }
 
 void Simulation::State::tell_modules() {

@@ -225,6 +225,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     throw DefinitionError(options.ranks ? "steps on another processor are taken in one process: run it without ranks"
                                         : "steps on another processor do not reach modules of the program");
   }
+  if (options.device) {
+    if (const std::string reason = options.device->refused(given); !reason.empty()) throw DefinitionError(reason);
+  }
   if (options.threads > kMostThreads) {
     throw DefinitionError(
         fmt::format("{} threads are asked for; at most {} can be had, and more than the machine's {} "
@@ -313,7 +316,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (s.over) s.over->warn_of_idle(s.sets, s.warnings);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);
-  if (options.device) s.hand_to_device(options.device);
+  if (options.device) s.hand_to_device(*options.device);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.watch_energy(0.0, s.material_limit);

@@ -193,7 +193,10 @@ void Simulation::State::serialise(StateArchive& archive) {
     }
     moved_by_device = false;
   }
-  if (archive.reading()) failed = true;  // until all has been read
+  if (archive.reading()) {
+    failed = true;  // until all has been read
+    device_ahead = moved_by_device = false;
+  }
   archive.value("time", time);
   archive.value("steps", steps.steps);
   archive.value("dt_min", steps.dt_min);
@@ -237,8 +240,8 @@ void Simulation::State::serialise(StateArchive& archive) {
     sort(seconds_of(time));
   }
   if (archive.reading() && device) {
+    begin_modules();
     device->take(sets);
-    device_ahead = moved_by_device = false;
   }
   if (archive.reading()) failed = false;
 }

@@ -112,7 +112,9 @@ struct Simulation::State {
   /// Brings sets and accounts up to date with the device, if there is one. All that reads them calls it before.
   void fetch();
   /// Lets a device take the steps from here on.
-  void hand_to_device(const MakeDevice& make);
+  void hand_to_device(const DeviceMaker& maker);
+  /// Lets modules take note of the start, as they else do in the first step.
+  void begin_modules();
   /// Lets modules know what the device has done in their place.
   void tell_modules();
   /// Looks whether bodies may be where they have been put. Collective. @throws RigidError
@@ -144,7 +146,7 @@ struct Simulation::State {
   /// Momentum of all particles [N s].
   Vec3 momentum();
   /// Limit of the step by the material now.
-  StepLimit survey_material() const;
+  StepLimit survey_material();
   /// The same of an implicit step.
   StepLimit survey_motion() const;
   /// Limit of the step by material and modules in the sync period, when the material has gone from one limit to the

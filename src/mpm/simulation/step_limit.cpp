@@ -157,10 +157,11 @@ StepLimit Simulation::State::survey_motion() const {
   return limit;
 }
 
-StepLimit Simulation::State::survey_material() const {
+StepLimit Simulation::State::survey_material() {
   if (definition.method.update == UpdateScheme::implicit) return survey_motion();
   const int dim = layout().dim();
   const double cell = layout().smallest_cell();
+  if (device && traits_of(definition.method.shape).shear_limits_step) fetch();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     double shear = shear_of(definition, sets[s], layout(), threads);
@@ -169,7 +170,7 @@ StepLimit Simulation::State::survey_material() const {
     if (device) {
       const Device::Fastest found = device->fastest(static_cast<int>(s), cell);
       StepLimit material;
-      material.dt = definition.time.cfl / found.rate;
+      material.dt = courant_of_shear(definition.time.cfl, shear) / found.rate;
       material.by = mechanics.get();
       material.part = static_cast<int>(s);
       material.speed = found.rate * cell;

@@ -1,5 +1,6 @@
-// How frictional walls held their nodes in the step before, which decides how they hold them for the strain
-// (step/coulomb.hpp): a number for each face and node, taken along when the table of blocks is found anew.
+// State of the nodes of frictional walls, free, sliding or sticking, in the step before, which decides how they are
+// held for the strain (step/coulomb.hpp): a number for each face and node, taken along when the table of blocks is
+// found anew.
 #pragma once
 
 #include <cstddef>

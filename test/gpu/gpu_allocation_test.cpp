@@ -33,15 +33,17 @@ void* counted(void* memory) {
 namespace gpu_allocation_test {
 
 TEST(GpuAllocation, NoneInAStepAfterTheFirst) {
-  const mpm::SimulationDefinition d = gpu_scenes::falling_block(mpm::Precision::float64);
-  const double dt = gpu_scenes::step_of(d);
-  mpm::SimulationProbe solver(d);
-  mpm_gpu::DeviceRun<double> run(d, solver.sets());
-  run.solver().step(dt);
-  const long before = allocations, sorts = run.solver().sorts();
-  for (int i = 0; i < 60; ++i) run.solver().step(dt);
-  EXPECT_EQ(allocations - before, 0);
-  EXPECT_GT(run.solver().sorts(), sorts);
+  for (const auto scene : {gpu_scenes::falling_block, gpu_scenes::column_apic, gpu_scenes::column_friction}) {
+    const mpm::SimulationDefinition d = scene(mpm::Precision::float64);
+    const double dt = gpu_scenes::step_of(d);
+    mpm::SimulationProbe solver(d);
+    mpm_gpu::DeviceRun<double> run(d, solver.sets());
+    run.solver().step(dt);
+    const long before = allocations, sorts = run.solver().sorts();
+    for (int i = 0; i < 60; ++i) run.solver().step(dt);
+    EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(run.solver().sorts(), sorts);
+  }
 }
 
 }  // namespace gpu_allocation_test

@@ -3,7 +3,7 @@
 
 #pragma clang force_cuda_host_device begin
 #include "mpm/shape/bspline.hpp"
-#include "mpm/shape/ugimp.hpp"
+#include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"
 #pragma clang force_cuda_host_device end

@@ -17,6 +17,20 @@ constexpr int kBeside = 8;       ///< nodes below the domain's first that have a
 constexpr int nodes_of_block(int dim) { return dim == 3 ? 64 : 16; }
 constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : 9; }
 
+/// Place of a key in an ascending list, which holds it; -1 if it does not.
+constexpr std::int32_t place_of(const std::uint64_t* keys, long count, std::uint64_t key) {
+  long first = 0, end = count;
+  while (first < end) {
+    const long middle = (first + end) / 2;
+    if (keys[middle] < key) {
+      first = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return first < count && keys[first] == key ? static_cast<std::int32_t>(first) : -1;
+}
+
 enum class Face : int { open, slip, fixed, frictional };
 
 struct GridView {

@@ -5,23 +5,6 @@
 #include <algorithm>
 
 namespace mpm_gpu {
-namespace {
-
-/// Place of a key in an ascending list, which holds it; -1 if it does not.
-constexpr std::int32_t place_of(const std::uint64_t* keys, long count, std::uint64_t key) {
-  long first = 0, end = count;
-  while (first < end) {
-    const long middle = (first + end) / 2;
-    if (keys[middle] < key) {
-      first = middle + 1;
-    } else {
-      end = middle;
-    }
-  }
-  return first < count && keys[first] == key ? static_cast<std::int32_t>(first) : -1;
-}
-
-}  // namespace
 
 CellTable::CellTable(const GridView& grid, int dim)
     : grid_(grid),

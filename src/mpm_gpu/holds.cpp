@@ -30,19 +30,9 @@ void WallHolds::carry(Executor& run, const NodeView& now) {
   const long old_blocks = blocks_, per_block = per_block_, nodes = now.nodes;
   const int faces = faces_;
   run.for_each("gpu: walls", nodes, [=](long node) {
-    const std::uint64_t wanted = key[node / per_block];
-    long first = 0, end = old_blocks;
-    while (first < end) {
-      const long middle = (first + end) / 2;
-      if (old_key[middle] < wanted) {
-        first = middle + 1;
-      } else {
-        end = middle;
-      }
-    }
-    const bool there = first < old_blocks && old_key[first] == wanted;
-    const long old = first * per_block + node % per_block, old_nodes = old_blocks * per_block;
-    for (int face = 0; face < faces; ++face) to[face * nodes + node] = there ? from[face * old_nodes + old] : 0;
+    const long block = place_of(old_key, old_blocks, key[node / per_block]);
+    const long old = block * per_block + node % per_block, old_nodes = old_blocks * per_block;
+    for (int face = 0; face < faces; ++face) to[face * nodes + node] = block < 0 ? 0 : from[face * old_nodes + old];
   });
   hold_.swap(other_);
   std::uint64_t* kept = key_.data();

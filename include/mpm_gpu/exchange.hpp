@@ -17,6 +17,8 @@ namespace mpm_gpu {
 std::string refused(const mpm::SimulationDefinition& definition);
 /// The same of what steps can, but a whole simulation cannot have there yet.
 std::string refused_in_a_run(const mpm::SimulationDefinition& definition);
+/// Sentence that refuses such a feature, with the remedy.
+std::string refusal(const std::string& feature);
 
 /// A run of this library that begins with the particles of a simulation, and its laws.
 template <class T>

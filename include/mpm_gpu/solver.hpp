@@ -68,8 +68,17 @@ struct Impulses {
   struct OfFace {
     double impulse[3] = {}, exchanged = 0.0;  ///< exchanged: sum over steps of the size of a step's impulse
   };
-  double walls[3] = {}, gravity[3] = {};
+  double gravity[3] = {};
   OfFace face[6] = {};
+
+  /// Impulse of all walls.
+  std::array<double, 3> walls() const {
+    std::array<double, 3> sum{};
+    for (const OfFace& one : face) {
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += one.impulse[k];
+    }
+    return sum;
+  }
 };
 
 template <class T>
@@ -146,7 +155,7 @@ class Solver {
   };
   /// The fastest of some particles.
   struct Faster {
-    double rank = -1.0, rate = -1.0;  ///< the rank of a rate that is not a number is above all others
+    double rank = -1.0, rate = -1.0;  ///< the rank of a rate that is not a number is infinite
     std::uint32_t particle = 0;
     constexpr Faster& operator+=(const Faster& other) {
       if (other.rank > rank) *this = other;

@@ -92,7 +92,7 @@ mpm::DeviceMaker device_by(Executor executor) {
   maker.refused = [](const mpm::SimulationDefinition& definition) -> std::string {
     std::string feature = refused(definition);
     if (feature.empty()) feature = refused_in_a_run(definition);
-    return feature.empty() ? "" : "gpu: " + feature + " does not run there: run the scene on the processor";
+    return feature.empty() ? "" : refusal(feature);
   };
   maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets) {
     return mpm::with_precision(definition.method.precision, [&](auto zero) -> std::unique_ptr<mpm::Device> {

@@ -118,9 +118,7 @@ const mpm::DeformableBody& body_of(const SimulationDefinition& d, const std::str
 
 std::vector<mpm::Law> laws_of(const SimulationDefinition& d, const std::vector<ParticleSet>& sets) {
   const std::string feature = refused(d);
-  if (!feature.empty()) {
-    throw GpuError("gpu: " + feature + " does not run there: run the scene on the processor");
-  }
+  if (!feature.empty()) throw GpuError(refusal(feature));
   std::vector<mpm::Law> laws;
   for (const ParticleSet& set : sets) {
     if (!set.masses.empty())
@@ -179,7 +177,8 @@ template <class T>
 std::size_t bytes_of_particle(const ParticleSet& set) {
   const std::size_t axes = set.x.size(), of_solver = axes * axes + 1;
   return (axes + 1) * sizeof(double) + 3 * sizeof(std::uint32_t) + 1 + 200 +
-         (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + of_solver) * sizeof(T);
+         (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + set.affine.size() + of_solver) *
+             sizeof(T);
 }
 
 template <class T>
@@ -249,6 +248,10 @@ std::string refused(const SimulationDefinition& d) {
     if (feature.used) return feature.name;
   }
   return {};
+}
+
+std::string refusal(const std::string& feature) {
+  return "gpu: " + feature + " does not run there: run the scene on the processor";
 }
 
 std::string refused_in_a_run(const SimulationDefinition& d) {

@@ -90,7 +90,11 @@ void Solver<T>::sort() {
   for (auto& one : store_.affine) permute(one, room_);
   permute(store_.id, id_room_);
   std::uint32_t* to = node_.data();
-  run_.for_each("gpu: sort", count_, [=](long i) { to[i] = node[i]; });
+  std::uint8_t* fault = fault_.data();
+  run_.for_each("gpu: sort", count_, [=](long i) {
+    to[i] = node[i];
+    fault[i] = 0;  // each leads to a sort or ends the run
+  });
   ++sorts_;
 }
 
@@ -135,8 +139,6 @@ template <class T>
 void Solver<T>::step(double dt) {
   if (must_sort_) sort();
   const StepView<T> now = view(dt);
-  std::uint8_t* fault = fault_.data();
-  run_.for_each("gpu: checks", count_, [=](long i) { fault[i] = 0; });
   const bool halves = method_.update == Update::usavg;
   if (passes_->domains != nullptr) passes_->domains(run_, now);
   momentum(now);
@@ -203,7 +205,6 @@ void Solver<T>::account(double dt) {
       },
       of_nodes_);
   for (int c = 0; c < dim; ++c) {
-    for (const auto& face : all.held) impulses_.walls[c] += face[c];
     impulses_.gravity[c] += all.mass * grid_.gravity[c] * dt;
   }
   for (int f = 0; f < 2 * dim; ++f) {
@@ -249,8 +250,7 @@ typename Solver<T>::Fastest Solver<T>::fastest(int set, double cell) {
       [=](long i) {
         constexpr double kEndless = std::numeric_limits<double>::infinity();
         const double rate = rates[first + i];
-        return Faster{rate <= kEndless ? rate : 2.0 * std::numeric_limits<double>::max(), rate,
-                      static_cast<std::uint32_t>(first + i)};
+        return Faster{rate <= kEndless ? rate : kEndless, rate, static_cast<std::uint32_t>(first + i)};
       },
       of_faster_);
   Fastest fastest{found.rate, {}};

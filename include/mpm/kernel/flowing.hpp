@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "mpm/material/increment.hpp"
 #include "mpm/math/dimension.hpp"
@@ -18,13 +19,11 @@ struct StoredStress {
       Geometry::kDim == 3 ? std::array<int, 3>{0, 1, 2} : std::array<int, 3>{0, 1, 3};
 
   static double mean(const double* s) { return (s[kDiagonal[0]] + s[kDiagonal[1]] + s[kDiagonal[2]]) / 3.0; }
-  /// As a tensor of numbers or registers.
-  template <class W>
   static auto symmetric(const double* s) {
     if constexpr (Geometry::kDim == 3) {
-      return Symmetric3<W>{W(s[0]), W(s[1]), W(s[2]), W(s[3]), W(s[4]), W(s[5])};
+      return Symmetric3<double>{s[0], s[1], s[2], s[3], s[4], s[5]};
     } else {
-      return SymmetricPlane<W>{W(s[0]), W(s[1]), W(s[2]), W(s[3])};
+      return SymmetricPlane<double>{s[0], s[1], s[2], s[3]};
     }
   }
 };
@@ -52,8 +51,7 @@ class FlowingParticles {
 
   explicit FlowingParticles(const FlowingArrays<T>& arrays) : arrays_(arrays) {}
 
-  template <class Index>
-  bool flows(Index p) const {
+  bool flows(std::uint32_t p) const {
     if (!(arrays_.strain[p] > arrays_.strain_before[p] + kFlow)) return false;
     if constexpr (finds_pressure(LawType::kStressFrom)) {
       return true;
@@ -63,25 +61,18 @@ class FlowingParticles {
       return Stored::mean(s) < -arrays_.least_pressure;
     }
   }
-  template <class Index>
-  void remember(Index p) const {
-    arrays_.strain_before[p] = arrays_.strain[p];
-  }
-  template <class Index>
-  double volume_ratio(Index p) const {
+  void remember(std::uint32_t p) const { arrays_.strain_before[p] = arrays_.strain[p]; }
+  double volume_ratio(std::uint32_t p) const {
     return determinant(Geometry::load_matrix(Reader{arrays_.gradient}, static_cast<int>(p)));
   }
-  template <class Index>
-  void stress(Index p, double (&s)[Stored::kCount]) const {
+  void stress(std::uint32_t p, double (&s)[Stored::kCount]) const {
     for (int i = 0; i < Stored::kCount; ++i) s[i] = static_cast<double>(arrays_.stress[i][p]);
   }
-  template <class Index>
-  void set_stress(Index p, const double (&s)[Stored::kCount]) const {
+  void set_stress(std::uint32_t p, const double (&s)[Stored::kCount]) const {
     for (int i = 0; i < Stored::kCount; ++i) arrays_.stress[i][p] = static_cast<T>(s[i]);
   }
   /// Scales the deformation along each of the grid's axes.
-  template <class Index>
-  void stretch(Index p, double along) const {
+  void stretch(std::uint32_t p, double along) const {
     for (int i = 0; i < kRows; ++i) arrays_.gradient[i][p] = static_cast<T>(along * arrays_.gradient[i][p]);
   }
 

@@ -16,8 +16,8 @@ class Device {
  public:
   /// The particle of a set that limits the time step.
   struct Fastest {
-    double rate;  ///< by which waves, motion and viscosity cross a cell [1/s]; NaN if that of any particle is
-    Vec3 place;   ///< [m]
+    double rate = 0.0;          ///< by which waves, motion and viscosity cross a cell [1/s]; NaN if any particle's is
+    Vec3 place = Vec3::Zero();  ///< [m]
   };
 
   virtual ~Device() = default;

@@ -205,7 +205,7 @@ double StressAverage::share(const Place& place, const LawType& law, double* befo
     for (int i = 0; i < Stored::kCount; ++i) mean[i] = cell.stress[i] * inverse_mass;
     const double ratio = particles.volume_ratio(p), mean_ratio = cell.volume * inverse_mass;
     const auto energy = [&](const double* s, double j) {
-      return law.elastic_energy(Geometry::dilatation(1.0), Stored::template symmetric<double>(s), j);
+      return law.elastic_energy(Geometry::dilatation(1.0), Stored::symmetric(s), j);
     };
     lost += particles.mass(p) * (energy(own, ratio) - energy(mean, mean_ratio));
     particles.set_stress(p, mean);

@@ -86,9 +86,6 @@ ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTenso
   return t;
 }
 
-namespace {
-
-/// Places of a set's particles, in the order of their ids. `whole`: all of the set's particles are here.
 std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
   std::vector<int> places(set.size());
   if (whole) {
@@ -99,8 +96,6 @@ std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
   }
   return places;
 }
-
-}  // namespace
 
 Vec3 Simulation::State::momentum() {
   fetch();

@@ -100,8 +100,8 @@ bool serialise_wrenches(StateArchive& archive, std::size_t rigid_bodies, std::ve
 
 /// Puts particles, all of them awake and here, in the order of their ids.
 void put_in_order_of_ids(ParticleSet& set, int threads) {
-  std::vector<std::uint32_t> places(set.id.size());
-  for (std::size_t p = 0; p < places.size(); ++p) places[set.id[p] - set.first_id] = static_cast<std::uint32_t>(p);
+  const std::vector<int> by_id = places_by_id(set, true);
+  const std::vector<std::uint32_t> places(by_id.begin(), by_id.end());
   ParticleOrder order;
   order.be_as_in_memory(set);
   PermuteScratch scratch;

@@ -194,6 +194,9 @@ struct Simulation::State {
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
 
+/// Places of a set's particles, in the order of their ids. `whole`: all of the set's particles are here.
+std::vector<int> places_by_id(const ParticleSet& set, bool whole);
+
 /// True if a metric is a force or a torque on a rigid body.
 bool is_wrench(const MetricDefinition& metric);
 

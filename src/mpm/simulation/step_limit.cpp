@@ -167,24 +167,20 @@ StepLimit Simulation::State::survey_material() {
     double shear = shear_of(definition, sets[s], layout(), threads);
     if (traits_of(definition.method.shape).shear_limits_step) shear = largest_of_all(ranks.get(), shear);
     if (sets[s].awake() == 0) continue;
+    Device::Fastest found{};
     if (device) {
-      const Device::Fastest found = device->fastest(static_cast<int>(s), cell);
-      StepLimit material;
-      material.dt = courant_of_shear(definition.time.cfl, shear) / found.rate;
-      material.by = mechanics.get();
-      material.part = static_cast<int>(s);
-      material.speed = found.rate * cell;
-      material.place = found.place;
-      limit.tighten(material);
-      continue;
+      found = device->fastest(static_cast<int>(s), cell);
+    } else {
+      const FastestParticle own = mechanics->fastest(static_cast<int>(s), cell);
+      found.rate = own.rate;
+      for (int k = 0; k < dim; ++k) found.place[layout().axis(k)] = sets[s].x[k][own.index];
     }
-    const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
     material.dt = courant_of_shear(definition.time.cfl, shear) / found.rate;
     material.by = mechanics.get();
     material.part = static_cast<int>(s);
     material.speed = found.rate * cell;
-    for (int k = 0; k < dim; ++k) material.place[layout().axis(k)] = sets[s].x[k][found.index];
+    material.place = found.place;
     limit.tighten(material);
   }
   if (over) over->share(limit, modules, mechanics.get());

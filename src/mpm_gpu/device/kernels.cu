@@ -1,30 +1,9 @@
-// Device code of every kernel, made of the headers that the processor's executor runs. Nothing is launched from here
-// yet: clang turns this file into PTX without a card or CUDA's own headers (scripts/lib/check_device_code), which shows
+// Device code of every kernel, made of the headers that the processor's executor runs. Nothing is launched from here:
+// clang turns this file into PTX without a card or CUDA's own headers (scripts/lib/check_device_code), which shows
 // that laws, shape functions and passes are what a device can do.
 //
-// Headers that the processor shares are between the pragmas, so that no function needs a mark; those of the standard
-// library come before them, because parts of it (threads, files) are for the host alone.
-// Marks that CUDA's headers define and clang's wrappers of the standard library want.
-#define __host__ __attribute__((host))
-#define __device__ __attribute__((device))
-#include <stdlib.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
-
-#include "mpm_gpu/device/device_functions.hpp"
+// Headers that the processor shares are between the pragmas, so that no function needs a mark.
+#include "mpm_gpu/device/host_headers.hpp"
 
 #pragma clang force_cuda_host_device begin
 #include "mpm/shape/bspline.hpp"

@@ -9,6 +9,8 @@
 //   (increments)  v of nodes               <-  v and particles  XPIC, FMPM: to particles and back, an order at a time
 //   move          v, x of particles         <-  v, a            a gather by particles
 //
+// Contact with rigid bodies acts between the passes (between.hpp), where the solver's stages do.
+//
 // Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
 // start: particles move to other places, which become theirs at the end. USAVG does half of the strain at each time.
 //
@@ -19,6 +21,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm_gpu/between.hpp"
 #include "mpm_gpu/cells.hpp"
 #include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/passes.hpp"
@@ -96,10 +99,12 @@ class Solver {
 
   /// Fits the memory to where the particles are; between sync periods.
   void make_room();
-  /// Makes a step of `dt` [s]. @throws GpuError naming a particle that has failed; nothing can be stepped after that
-  void step(double dt);
+  /// Makes a step of `dt` [s]. `between`: what acts on nodes between the passes, else null.
+  /// @throws GpuError naming a particle that has failed; nothing can be stepped after that
+  void step(double dt, Between<T>* between = nullptr);
 
   const ParticleStore<T>& particles() const { return store_; }
+  const GridView& grid() const { return grid_; }
   const std::vector<SetView>& sets() const { return sets_; }
   const Impulses& impulses() const { return impulses_; }
   /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
@@ -124,7 +129,7 @@ class Solver {
   /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
   void strain(StepView<T> now, double dt);
   /// Adds the increments of XPIC and FMPM to the velocity of the nodes.
-  void filter(const StepView<T>& now);
+  void filter(const StepView<T>& now, Between<T>* between);
   void check();
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }

@@ -73,6 +73,7 @@ struct ParticleView {
   T* domain[3];           ///< stretch of the shape function's box, of the step's start; of one that has it
   std::uint32_t* node;    ///< number of the nearest node in the table
   std::uint8_t* fault;    ///< bits of Fault, in this step
+  std::uint32_t* id;      ///< as in the solver
 };
 
 /// Findings of a kernel about a particle.
@@ -90,8 +91,10 @@ struct NodeView {
   double* velocity;            ///< [m/s]
   double* acceleration;        ///< [m/s^2]
   std::uint8_t* hold;          ///< [face][node], how frictional walls hold (walls.hpp); null if there are none
-  double* increment;           ///< increment of XPIC or FMPM that is at work [m/s]
-  double* held;                ///< impulse that walls give in a step [N s]
+  /// 1 at nodes near rigid bodies, where frictional walls act after contact; null where none is marked.
+  const std::uint8_t* near;
+  double* increment;  ///< increment of XPIC or FMPM that is at work [m/s]
+  double* held;       ///< impulse that walls give in a step [N s]
 };
 
 struct StepSettings {

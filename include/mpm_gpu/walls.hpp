@@ -50,10 +50,13 @@ Hold touch(const GridView& grid, int face, double (&v)[Dim]) {
   return hold;
 }
 
-/// Velocity for the strain: a node that was held is held, one that was free if it approaches.
+/// True if contact with rigid bodies acts at a node between the walls that always hold and the frictional ones.
+inline bool is_near(const NodeView& nodes, long node) { return nodes.near != nullptr && nodes.near[node] != 0; }
+
+/// Lets frictional walls act on the velocity for the strain: a node that was held is held, one that was free if it
+/// approaches.
 template <int Dim>
-void hold_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  hold_always<Dim>(grid, number, v);
+void rub_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
   for (int face = 0; face < 2 * Dim; ++face) {
     if (grid.faces[face] != Face::frictional || !on_wall(grid, number, face)) continue;
     const auto hold = static_cast<Hold>(nodes.hold[face * nodes.nodes + node]);
@@ -64,25 +67,58 @@ void hold_for_strain(const GridView& grid, const NodeView& nodes, long node, con
     }
   }
 }
-
-/// Velocity of the step's end, of which contact is decided.
+/// The same for that of the step's end, by which their contact is decided.
 template <int Dim>
-void hold_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  hold_always<Dim>(grid, number, v);
+void rub_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
   for (int face = 0; face < 2 * Dim; ++face) {
     if (grid.faces[face] != Face::frictional) continue;
     nodes.hold[face * nodes.nodes + node] = on_wall(grid, number, face) ? touch<Dim>(grid, face, v) : kFree;
   }
 }
-
-/// Increments of the velocity of the step's end.
+/// The same for increments of that.
 template <int Dim>
-void hold_increment(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  hold_always<Dim>(grid, number, v);
+void rub_increment(const GridView& grid, const NodeView& nodes, long node, double (&v)[Dim]) {
   for (int face = 0; face < 2 * Dim; ++face) {
     if (grid.faces[face] != Face::frictional) continue;
     hold_part<Dim>(face, static_cast<Hold>(nodes.hold[face * nodes.nodes + node]), v);
   }
+}
+
+// All walls at a node; near rigid bodies those that always hold, as the first of two times.
+
+template <int Dim>
+void hold_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
+  hold_always<Dim>(grid, number, v);
+  if (!is_near(nodes, node)) rub_for_strain<Dim>(grid, nodes, node, number, v);
+}
+template <int Dim>
+void hold_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
+  hold_always<Dim>(grid, number, v);
+  if (!is_near(nodes, node)) rub_at_end<Dim>(grid, nodes, node, number, v);
+}
+template <int Dim>
+void hold_increment(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
+  hold_always<Dim>(grid, number, v);
+  if (!is_near(nodes, node)) rub_increment<Dim>(grid, nodes, node, v);
+}
+
+// Near rigid bodies, when contact with them has acted: frictional walls, then once more those that always hold.
+
+template <int Dim>
+void hold_again_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number,
+                           double (&v)[Dim]) {
+  rub_for_strain<Dim>(grid, nodes, node, number, v);
+  hold_always<Dim>(grid, number, v);
+}
+template <int Dim>
+void hold_again_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
+  rub_at_end<Dim>(grid, nodes, node, number, v);
+  hold_always<Dim>(grid, number, v);
+}
+template <int Dim>
+void hold_increment_again(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
+  rub_increment<Dim>(grid, nodes, node, v);
+  hold_always<Dim>(grid, number, v);
 }
 
 }  // namespace mpm_gpu

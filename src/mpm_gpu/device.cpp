@@ -7,6 +7,7 @@
 
 #include "mpm/modules/with_precision.hpp"
 #include "mpm_gpu/exchange.hpp"
+#include "mpm_gpu/near_bodies.hpp"
 
 namespace mpm_gpu {
 namespace {
@@ -25,8 +26,11 @@ class RunDevice final : public mpm::Device {
     begin(sets);
   }
 
-  void step(double dt) override {
-    told([&] { run_->solver().step(dt); });
+  void step(double dt, mpm::HostContact* contact) override {
+    told([&] {
+      if (contact != nullptr && !near_) near_ = std::make_unique<NearBodies<T>>(*contact, run_->solver().grid());
+      run_->solver().step(dt, near_.get());
+    });
   }
   void make_room() override {
     told([&] { run_->solver().make_room(); });
@@ -61,6 +65,7 @@ class RunDevice final : public mpm::Device {
   void begin(const std::vector<ParticleSet>& sets) {
     run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
+    near_.reset();
     told_ = {};
   }
   Vec3 in_world(const std::array<double, 3>& along) const {
@@ -82,6 +87,7 @@ class RunDevice final : public mpm::Device {
   mpm::GridLayout layout_;
   Executor executor_;
   std::unique_ptr<DeviceRun<T>> run_;
+  std::unique_ptr<NearBodies<T>> near_;  ///< null before the first step, and without rigid bodies
   std::array<Impulses::OfFace, 6> told_{};
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "mpm/contact/thin_tool.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/rules/method_rules.hpp"
@@ -31,6 +32,9 @@ bool any_user_law(const SimulationDefinition& d) {
 bool any_liquid(const SimulationDefinition& d) {
   return std::any_of(d.materials.begin(), d.materials.end(),
                      [](const auto& m) { return traits_of(make_law(m)).matter == mpm::Matter::liquid; });
+}
+bool any_tool(const SimulationDefinition& d, bool (*is)(const mpm::RigidBodyDefinition&, const SimulationDefinition&)) {
+  return std::any_of(d.rigid_bodies.begin(), d.rigid_bodies.end(), [&](const auto& body) { return is(body, d); });
 }
 bool several_fields(const SimulationDefinition& d) {
   return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
@@ -233,7 +237,13 @@ std::string refused(const SimulationDefinition& d) {
       {any_user_law(d), "a law of a user's program"},
       {several_fields(d), "contact of deformable bodies"},
       {cut_places(d), "a body with a curved surface that cuts particles"},
-      {!d.rigid_bodies.empty() || !d.robots.empty(), "a rigid body or robot"},
+      {any_tool(d, [](const mpm::RigidBodyDefinition& body, const SimulationDefinition&) { return body.particles; }),
+       "a rigid body made of particles"},
+      {any_tool(d,
+                [](const mpm::RigidBodyDefinition& body, const SimulationDefinition& scene) {
+                  return has_sides(body, scene.geometry, scene.smallest_cell());
+                }),
+       "a thin tool, whose sides have velocity fields of their own"},
       {any_wall(d,
                 [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing || kind == mpm::WallKind::periodic; }),
        "an absorbing or periodic face"},

@@ -120,6 +120,7 @@ StepView<T> Solver<T>::view(double dt) {
   particles.strain_before = store_.strain_before.data();
   particles.node = node_.data();
   particles.fault = fault_.data();
+  particles.id = store_.id.data();
   view.nodes = cells_.view();
   view.nodes.mass = mass_.data();
   view.nodes.momentum = nodal_[0].data();
@@ -136,19 +137,30 @@ StepView<T> Solver<T>::view(double dt) {
 }
 
 template <class T>
-void Solver<T>::step(double dt) {
+void Solver<T>::step(double dt, Between<T>* between) {
   if (must_sort_) sort();
-  const StepView<T> now = view(dt);
+  StepView<T> now = view(dt);
+  if (between != nullptr) now.nodes.near = between->begin_step(run_, now, sorts_);
+  const auto act = [&](mpm::Hook hook) {
+    if (between != nullptr) between->act(hook, run_, now);
+  };
   const bool halves = method_.update == Update::usavg;
   if (passes_->domains != nullptr) passes_->domains(run_, now);
   momentum(now);
+  act(mpm::Hook::momentum_gathered);
   average(now);
-  if (method_.update != Update::usl) strain(now, halves ? 0.5 * dt : dt);
+  if (method_.update != Update::usl) {
+    act(mpm::Hook::before_strain);
+    strain(now, halves ? 0.5 * dt : dt);
+  }
   passes_->force(run_, now);
-  filter(now);
+  act(mpm::Hook::momentum_updated);
+  filter(now, between);
+  act(mpm::Hook::grid_advanced);
   passes_->move[method_.motion](run_, now);
   if (method_.update != Update::usf) {
     momentum(now);
+    act(mpm::Hook::before_strain);
     strain(now, halves ? 0.5 * dt : dt);
     for (int k = 0; k < dim_; ++k) store_.x[k].swap(next_x_[k]);
   }
@@ -173,11 +185,17 @@ void Solver<T>::strain(StepView<T> now, double dt) {
 }
 
 template <class T>
-void Solver<T>::filter(const StepView<T>& now) {
-  if (method_.order > 1) passes_->first_increment(run_, now);
+void Solver<T>::filter(const StepView<T>& now, Between<T>* between) {
+  if (method_.order < 2) return;
+  const auto act = [&](mpm::Hook hook) {
+    if (between != nullptr) between->act(hook, run_, now);
+  };
+  passes_->first_increment(run_, now);
+  act(mpm::Hook::velocity_found);
   for (int n = 1; n < method_.order; ++n) {
     passes_->to_particles(run_, now);
     passes_->increment(run_, now);
+    act(mpm::Hook::increment_found);
   }
 }
 

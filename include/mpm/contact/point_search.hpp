@@ -36,6 +36,9 @@ class PointSearch {
         ranks_(ranks),
         choice_(choice) {}
 
+  /// A particle farther than this from a body has no point in this step [m].
+  static double reach(const std::vector<ParticleSet>& sets, const GridLayout& layout);
+
   /// Points that are near a body, or come near to it within `dt` [s]. The law of a body against a set is the one at
   /// (place of the body) * (number of sets) + (place of the set). The order does not depend on the number of threads.
   /// Over several ranks they are those of all, on each of them, in the order that they have in one process.

@@ -70,6 +70,9 @@ struct RunParts {
   PointContact* at_points = nullptr;  ///< contact of tools at points
   Sleep* sleep = nullptr;
   StressAverage* stress_average = nullptr;
+  /// Particles near rigid bodies where a device takes the steps (step/device.hpp); else null, and all sets are looked
+  /// through.
+  const std::vector<ParticleSet>* near_bodies = nullptr;
   std::vector<RestPartner*> rest_partners = {};  ///< modules that act on material at rest, which sleep asks
 
   const GridLayout& layout() const { return fields.front()->layout; }

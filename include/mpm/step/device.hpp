@@ -2,15 +2,35 @@
 // keeps the clock, the limits of steps, the modules' reports and the checkpoints; its particle sets on the host are
 // brought up to date only when somebody reads them. The modules of such a run act on no grid: what the device does in
 // their place it tells them, so that accounts and checkpoints are those of a run on the processor.
+//
+// Contact with rigid bodies alone acts on the host, whose bodies, robots and solution for all points of contact it
+// needs, in every step: the device copies the nodes near bodies, and the particles around them, into the host's own
+// grid, and takes the nodes' velocities back.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/module.hpp"
+#include "mpm/step/order.hpp"
 
 namespace mpm {
+
+/// Contact with rigid bodies, on the host, in the steps of a device.
+class HostContact {
+ public:
+  virtual ~HostContact() = default;
+  /// True if material within `radius` [m] of a world place may meet a body in this step.
+  virtual bool near(const Vec3& place, double radius) const = 0;
+  /// Fields for the nodes near bodies, which the device fills and no sort does.
+  virtual Fields& fields() = 0;
+  /// For the particles near bodies: the run's sets, with places, velocities and deformation gradients alone.
+  virtual std::vector<ParticleSet>& sets() = 0;
+  /// Acts on both as the stages of contact do at a hook.
+  virtual void act(Hook hook) = 0;
+};
 
 class Device {
  public:
@@ -22,8 +42,9 @@ class Device {
 
   virtual ~Device() = default;
 
-  /// Makes a step of `dt` [s]. @throws ModuleError naming a particle that has failed; nothing can be stepped then
-  virtual void step(double dt) = 0;
+  /// Makes a step of `dt` [s]. `contact`: null in a scene without rigid bodies. @throws ModuleError naming a particle
+  /// that has failed; nothing can be stepped then
+  virtual void step(double dt, HostContact* contact) = 0;
   /// Called between sync periods: fits the memory to where the particles are. @throws ModuleError
   virtual void make_room() = 0;
   /// `cell`: smallest edge of a cell [m].

@@ -38,6 +38,8 @@ class Modules {
 
   /// Calls the stages at a hook, in the order of their ranks.
   void act(Hook hook, StepContext& context) const;
+  /// Calls those of one rank alone.
+  void act(Hook hook, Rank rank, StepContext& context) const;
 
   /// For ranks other than the first: what all ranks know counts as 0 here in accounts, energies and numbers.
   void leave_shared_to_first() { leaves_shared_ = true; }
@@ -67,6 +69,7 @@ class Modules {
     FieldStage* in_field;
     int field;
   };
+  static void carry_out(const Call& call, std::size_t hook, StepContext& context);
   void add_entry(Entry entry);
   /// True if what a module reports counts here.
   bool counts(const Module& module) const { return !(leaves_shared_ && module.same_on_all_ranks()); }

@@ -21,6 +21,11 @@ constexpr bool strains_after_motion(UpdateScheme update) {
   return update == UpdateScheme::usl || update == UpdateScheme::usavg;
 }
 
+/// StepContext::strain_at_start of explicit steps.
+constexpr double strain_at_start(UpdateScheme update) {
+  return update == UpdateScheme::usf ? 1.0 : update == UpdateScheme::usavg ? 0.5 : 0.0;
+}
+
 /// In the order of UpdateScheme.
 inline constexpr std::array<const char*, 4> kUpdateNames = {"usf", "usl", "usavg", "implicit"};
 

@@ -37,6 +37,16 @@ double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centr
   return std::min(most * at.distance / step, 1.0);
 }
 
+/// The farthest that a particle reaches from its centre [m].
+double farthest_reach(const std::vector<ParticleSet>& sets, const GridLayout& layout) {
+  double farthest = 0.0;
+  for (const ParticleSet& set : sets) {
+    const double most = kMostStretch * (set.surface.empty() ? 1.0 : kMostSurface);
+    for (int k = 0; k < layout.dim(); ++k) farthest = std::max(farthest, most * set.half[k] * layout.cell(k));
+  }
+  return farthest;
+}
+
 /// A point as ranks send it.
 struct SentPoint {
   std::uint64_t block;  ///< key of the one that the particle was sorted into
@@ -191,15 +201,14 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
   }
 }
 
+double PointSearch::reach(const std::vector<ParticleSet>& sets, const GridLayout& layout) {
+  return farthest_reach(sets, layout) + layout.smallest_cell();
+}
+
 template <class Geometry>
 void PointSearch::find_in(double dt) {
-  const GridLayout& layout = fields_.front()->layout;
-  double farthest = 0.0;
-  for (const ParticleSet& set : sets_) {
-    const double most = kMostStretch * (set.surface.empty() ? 1.0 : kMostSurface);
-    for (int k = 0; k < layout.dim(); ++k) farthest = std::max(farthest, most * set.half[k] * layout.cell(k));
-  }
-  find_jobs(farthest + layout.smallest_cell());
+  const double farthest = farthest_reach(sets_, fields_.front()->layout);
+  find_jobs(reach(sets_, fields_.front()->layout));
   while (of_job_.size() < jobs_.size()) of_job_.emplace_back();
   const int count = static_cast<int>(jobs_.size());
   for_unlike("contact: search of points", threads_, count, [&](int i) {

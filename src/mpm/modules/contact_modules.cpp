@@ -121,7 +121,8 @@ void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, s
                                 parts.heat,          definition.contact.sharp_edges,
                                 parts.ranks,         body_contact_settings(definition),
                                 parts.choice};
-  auto contact = std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings);
+  const std::vector<ParticleSet>& sets = parts.near_bodies != nullptr ? *parts.near_bodies : parts.sets;
+  auto contact = std::make_unique<PointContact>(bodies, sets, parts.fields, std::move(laws), settings);
   parts.at_points = contact.get();
   parts.modules.add(std::move(contact));
 }

@@ -64,7 +64,9 @@ bool Simulation::State::step(double start, double dt, bool more) {
                                      &step_implicit};  // in the order of UpdateScheme
   if (device) {
     device_ahead = true;
-    device->step(dt);
+    context.strain_at_start = strain_at_start(definition.method.update);
+    if (host_contact) host_contact->begin_step(context);
+    device->step(dt, host_contact.get());
   } else {
     kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   }

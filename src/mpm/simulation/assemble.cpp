@@ -165,7 +165,7 @@ VolumeSurvey& RunParts::volumes() {
   return *services.volumes;
 }
 
-void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
+void Simulation::State::add_modules(const std::vector<AddModules>& of_caller, bool on_device) {
   const MethodDefinition& method = definition.method;
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   bodies.reserve(definition.rigid_bodies.size());
@@ -195,6 +195,10 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
                  notes,
                  [this]() -> const EnergyReport& { return find_totals().energy; },
                  interrupt};
+  if (on_device && !bodies.empty()) {
+    host_contact = std::make_unique<ContactOnHost>(bodies, modules, fields, sets);
+    parts.near_bodies = &host_contact->sets();
+  }
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
   for (Module* module : modules.list()) {
@@ -304,7 +308,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     }
   }
   check_stop();
-  s.add_modules(options.modules);
+  s.add_modules(options.modules, options.device.has_value());
   check_stop();
 
   const double lightest = least_mass(s.sets, s.ranks.get());

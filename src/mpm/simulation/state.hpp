@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 
+#include "contact_on_host.hpp"
 #include "energy_watch.hpp"
 #include "mpm/bed/following_bed.hpp"
 #include "mpm/contact/contact_reporter.hpp"
@@ -85,6 +86,7 @@ struct Simulation::State {
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::unique_ptr<Device> device;  ///< another processor that takes the steps, else null
+  std::unique_ptr<ContactOnHost> host_contact;  ///< contact in the device's steps; null without one, or rigid bodies
   bool device_ahead = false;       ///< true if it has taken steps that the sets do not show yet
   bool moved_by_device = false;    ///< true if sets show its steps and have not been sorted since
   std::vector<RigidBody> bodies;
@@ -128,7 +130,8 @@ struct Simulation::State {
   /// Layout of every field.
   const GridLayout& layout() const { return fields.front()->layout; }
   /// The shipped modules that the definition asks for, those of the caller, and the mechanics.
-  void add_modules(const std::vector<AddModules>& of_caller);
+  /// `on_device`: whether a device will take the steps.
+  void add_modules(const std::vector<AddModules>& of_caller, bool on_device);
   /// Views of each set, for particle fields (particle_view.hpp).
   std::vector<SetView> views();
   /// @throws DefinitionError for a particle field that the run does not have

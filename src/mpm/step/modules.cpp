@@ -61,18 +61,27 @@ void Modules::put_in_order() {
   }
 }
 
+void Modules::carry_out(const Call& call, std::size_t hook, StepContext& context) {
+  const TimeProfile::Part part(
+      [&] { return "module: " + (call.across != nullptr ? call.across->name() : call.in_field->name()); });
+  if (call.across != nullptr) {
+    (call.across->*kAtHook<StepContext>[hook])(context);
+  } else {
+    FieldContext own{*context.fields[call.field], context.dt, context.start, context.strain_at_start,
+                     context.works_at_end};
+    (call.in_field->*kAtHook<FieldContext>[hook])(own);
+  }
+}
+
 void Modules::act(Hook hook, StepContext& context) const {
   const auto h = static_cast<std::size_t>(hook);
+  for (const Call& call : calls_[h]) carry_out(call, h, context);
+}
+
+void Modules::act(Hook hook, Rank rank, StepContext& context) const {
+  const auto h = static_cast<std::size_t>(hook);
   for (const Call& call : calls_[h]) {
-    const TimeProfile::Part part(
-        [&] { return "module: " + (call.across != nullptr ? call.across->name() : call.in_field->name()); });
-    if (call.across != nullptr) {
-      (call.across->*kAtHook<StepContext>[h])(context);
-    } else {
-      FieldContext own{*context.fields[call.field], context.dt, context.start, context.strain_at_start,
-                       context.works_at_end};
-      (call.in_field->*kAtHook<FieldContext>[h])(own);
-    }
+    if (call.rank == rank) carry_out(call, h, context);
   }
 }
 

@@ -40,7 +40,7 @@ void finish_with_strain(Mechanics& mechanics, const Modules& modules, StepContex
 }  // namespace
 
 void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context) {
-  context.strain_at_start = 1.0;
+  context.strain_at_start = strain_at_start(UpdateScheme::usf);
   gather_momentum(mechanics, modules, context);
   modules.act(Hook::before_strain, context);
   mechanics.strain_and_force(context, context.dt);
@@ -49,7 +49,7 @@ void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context
 }
 
 void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context) {
-  context.strain_at_start = 0.0;
+  context.strain_at_start = strain_at_start(UpdateScheme::usl);
   gather_momentum(mechanics, modules, context);
   mechanics.internal_force(context);
   advance_grid(mechanics, modules, context);
@@ -57,7 +57,7 @@ void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context
 }
 
 void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& context) {
-  context.strain_at_start = 0.5;
+  context.strain_at_start = strain_at_start(UpdateScheme::usavg);
   gather_momentum(mechanics, modules, context);
   modules.act(Hook::before_strain, context);
   mechanics.strain_and_force(context, 0.5 * context.dt);

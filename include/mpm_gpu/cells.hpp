@@ -40,7 +40,6 @@ class CellTable {
   GridView grid_;
   int dim_, around_;
   std::uint64_t per_block_, block_keys_;
-  std::int64_t offset_[27];  ///< differences of the keys of blocks around one
   long particles_ = 0, owners_room_ = 0, room_ = 0, blocks_ = 0;
   int sets_ = 0;
   Buffer<std::uint64_t> key_, other_key_;  ///< keys of particles, then of blocks around owners

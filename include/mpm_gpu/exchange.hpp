@@ -31,9 +31,11 @@ class DeviceRun {
 
   Solver<T>& solver() { return solver_; }
   /// Writes the particles' numbers back, each to where its id lies. They have moved: the simulation has to sort them.
-  void write_to(std::vector<mpm::ParticleSet>& sets) const;
+  /// Their places at the start go around periodic axes as they have done since the last call.
+  void write_to(std::vector<mpm::ParticleSet>& sets);
 
  private:
+  mpm::GridLayout layout_;
   std::vector<mpm::Law> laws_;  ///< laws of the sets, to which the solver points
   Solver<T> solver_;
 };

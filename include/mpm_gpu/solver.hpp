@@ -25,6 +25,7 @@
 #include "mpm_gpu/cells.hpp"
 #include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/passes.hpp"
+#include "mpm_gpu/put_around.hpp"
 
 namespace mpm_gpu {
 
@@ -107,6 +108,9 @@ class Solver {
   const GridView& grid() const { return grid_; }
   const std::vector<SetView>& sets() const { return sets_; }
   const Impulses& impulses() const { return impulses_; }
+  PutAround& put_around() { return around_; }
+  /// Forgets by how many lengths of periodic axes particles were put around.
+  void clear_turns() { around_.clear_turns(run_); }
   /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
   struct Fastest {
     double rate;  ///< [1/s]; NaN if that of any particle is
@@ -189,6 +193,7 @@ class Solver {
   std::vector<AveragePass<T>> average_passes_;  ///< null for a law whose stress is not averaged
   CellTable cells_;
   WallHolds holds_;
+  PutAround around_;
   long count_ = 0;
   std::array<Buffer<double>, 3> next_x_;  ///< empty with USF
   std::array<Buffer<T>, 9> gradient_;

@@ -170,7 +170,7 @@ void each_particle_of(const StepView<T>& step, long node, const int* number, Vis
       int nearest[3] = {}, n[3] = {};
       for (int k = 0; k < Dim; ++k) {
         there.at[k] += cell[k] - kReach;
-        nearest[k] = number[k] + cell[k] - kReach;
+        nearest[k] = around(step.grid, k, number[k] + cell[k] - kReach);
         n[k] = kNodes - 1 - cell[k];
       }
       const long at = number_of<Dim>(step.nodes, block, there);

@@ -36,6 +36,7 @@ enum class Face : int { open, slip, fixed, frictional };
 struct GridView {
   double origin[3], inverse_cell[3];
   int last_node[3];                  ///< on the upper face
+  int period[3];                     ///< nodes of a periodic axis, a whole number of blocks; 0 of others
   long blocks_along[3];              ///< edges of the box of all blocks that may be needed
   Face faces[6];                     ///< 2 * axis, + 1 for the upper one
   double friction[6];                ///< coefficients of frictional walls; infinite: none slides while pressed
@@ -48,6 +49,25 @@ struct GridView {
 /// Nearest node of a place in cells, > -64; half way between two the upper one, as GridLayout::nearest() has it.
 constexpr int nearest_node(double cells) { return static_cast<int>(cells + (64.5 + 1e-12)) - 64; }
 constexpr double in_cells(const GridView& grid, int k, double x) { return (x - grid.origin[k]) * grid.inverse_cell[k]; }
+
+/// Number of a node among those of a periodic axis, 0 to the period less one; of other axes as it is.
+constexpr int around(const GridView& grid, int k, int node) {
+  const int period = grid.period[k];
+  return period == 0 ? node : node < 0 ? node + period : node >= period ? node - period : node;
+}
+/// Key of one of the 3^dim blocks around a block, by its number, the last axis fastest.
+constexpr std::uint64_t neighbour_key(const GridView& grid, int dim, std::uint64_t key, int number) {
+  std::uint64_t neighbour = 0, part = 1;
+  for (int k = dim - 1; k >= 0; --k, number /= 3) {
+    const auto along = static_cast<std::uint64_t>(grid.blocks_along[k]);
+    const int block = static_cast<int>(key % along) + number % 3 - 1;
+    const int wrapped = around(grid, k, block * kEdge - kBeside);
+    neighbour += part * static_cast<std::uint64_t>((wrapped + kBeside) / kEdge);
+    part *= along;
+    key /= along;
+  }
+  return neighbour;
+}
 
 /// One body.
 struct SetView {

@@ -13,14 +13,6 @@ CellTable::CellTable(const GridView& grid, int dim)
       per_block_(static_cast<std::uint64_t>(nodes_of_block(dim))),
       block_keys_(1) {
   for (int k = 0; k < dim; ++k) block_keys_ *= static_cast<std::uint64_t>(grid.blocks_along[k]);
-  for (int n = 0; n < around_; ++n) {
-    std::int64_t offset = 0, part = 1;
-    for (int k = dim - 1, rest = n; k >= 0; --k, rest /= 3) {
-      offset += (rest % 3 - 1) * part;
-      part *= grid.blocks_along[k];
-    }
-    offset_[n] = offset;
-  }
 }
 
 void CellTable::make_room(Executor& run, const double* const* x, const std::vector<SetView>& sets) {
@@ -87,7 +79,8 @@ void CellTable::find_keys(Executor& run, const double* const* x, const std::vect
       const long p = first + i;
       std::uint64_t block = 0, local = 0;
       for (int k = 0; k < dim; ++k) {
-        const auto node = static_cast<std::uint64_t>(nearest_node(in_cells(grid, k, x[k][p])) + kBeside);
+        const auto node =
+            static_cast<std::uint64_t>(around(grid, k, nearest_node(in_cells(grid, k, x[k][p]))) + kBeside);
         block = block * static_cast<std::uint64_t>(grid.blocks_along[k]) + node / kEdge;
         local = local * kEdge + node % kEdge;
       }
@@ -115,17 +108,15 @@ long CellTable::find_owners(Executor& run) {
 }
 
 void CellTable::find_blocks(Executor& run, long owners) {
-  struct Offsets {
-    std::int64_t of[27];
-  } offsets{};
-  std::copy_n(offset_, 27, offsets.of);
+  const GridView grid = grid_;
+  const int dim = dim_;
   std::uint64_t *key = key_.data(), *block = block_.data();
   const std::uint64_t* owner = owner_.data();
   std::uint32_t* flag = flag_.data();
   const int around = around_;
   const long candidates = owners * around;
   run.for_each("gpu: blocks", candidates,
-               [=](long i) { key[i] = owner[i / around] + static_cast<std::uint64_t>(offsets.of[i % around]); });
+               [=](long i) { key[i] = neighbour_key(grid, dim, owner[i / around], static_cast<int>(i % around)); });
   run.stable_sort(key, order_.data(), other_key_.data(), other_order_.data(), candidates, block_keys_);
   run.for_each("gpu: blocks", candidates, [=](long i) { flag[i] = i == 0 || key[i] != key[i - 1] ? 1U : 0U; });
   blocks_ = run.exclusive_scan(flag, flag, candidates);
@@ -141,7 +132,7 @@ void CellTable::find_blocks(Executor& run, long owners) {
   std::int32_t* neighbours = neighbours_.data();
   const long blocks = blocks_;
   run.for_each("gpu: blocks", blocks * around, [=](long i) {
-    neighbours[i] = place_of(block, blocks, block[i / around] + static_cast<std::uint64_t>(offsets.of[i % around]));
+    neighbours[i] = place_of(block, blocks, neighbour_key(grid, dim, block[i / around], static_cast<int>(i % around)));
   });
 }
 

@@ -54,7 +54,14 @@ class RunDevice final : public mpm::Device {
     before = now;
     return given;
   }
-  void fetch(std::vector<ParticleSet>& sets) const override {
+  Vec3 take_carried() override {
+    const std::array<double, 3> now = run_->solver().put_around().carried();
+    std::array<double, 3> since{};
+    for (std::size_t k = 0; k < 3; ++k) since[k] = now[k] - carried_before_[k];
+    carried_before_ = now;
+    return in_world(since);
+  }
+  void fetch(std::vector<ParticleSet>& sets) override {
     told([&] { run_->write_to(sets); });
   }
   void take(const std::vector<ParticleSet>& sets) override {
@@ -67,6 +74,7 @@ class RunDevice final : public mpm::Device {
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
     near_.reset();
     told_ = {};
+    carried_before_ = {};
   }
   Vec3 in_world(const std::array<double, 3>& along) const {
     Vec3 vector = Vec3::Zero();
@@ -89,6 +97,7 @@ class RunDevice final : public mpm::Device {
   std::unique_ptr<DeviceRun<T>> run_;
   std::unique_ptr<NearBodies<T>> near_;  ///< null before the first step, and without rigid bodies
   std::array<Impulses::OfFace, 6> told_{};
+  std::array<double, 3> carried_before_{};  ///< PutAround::carried() when last taken [kg m]
 };
 
 }  // namespace

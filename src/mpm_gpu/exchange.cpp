@@ -47,6 +47,7 @@ bool cut_places(const SimulationDefinition& d) {
 Face face_of(mpm::WallKind kind) {
   switch (kind) {
     case mpm::WallKind::none:
+    case mpm::WallKind::periodic:
       return Face::open;
     case mpm::WallKind::fixed:
       return Face::fixed;
@@ -64,6 +65,7 @@ GridView view_of(const SimulationDefinition& d) {
     view.origin[k] = layout.origin(k);
     view.inverse_cell[k] = layout.inverse_cell(k);
     view.last_node[k] = layout.last_node(k);
+    view.period[k] = d.walls[2 * layout.axis(k)].kind == mpm::WallKind::periodic ? layout.last_node(k) : 0;
     view.gravity[k] = d.gravity[layout.axis(k)];
     // A block more to each side than the particles', who reach a node beyond the domain.
     view.blocks_along[k] = (layout.last_node(k) + 1 + kBeside) / kEdge + 2;
@@ -244,9 +246,7 @@ std::string refused(const SimulationDefinition& d) {
                   return has_sides(body, scene.geometry, scene.smallest_cell());
                 }),
        "a thin tool, whose sides have velocity fields of their own"},
-      {any_wall(d,
-                [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing || kind == mpm::WallKind::periodic; }),
-       "an absorbing or periodic face"},
+      {any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing; }), "an absorbing face"},
       {!d.conditions.empty(), "a prescribed velocity"},
       {!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty(), "a load other than gravity"},
       {d.sleep.has_value(), "sleep"},
@@ -274,7 +274,8 @@ std::string refused_in_a_run(const SimulationDefinition& d) {
 
 template <class T>
 DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
-    : laws_(laws_of(definition, sets)),
+    : layout_(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max),
+      laws_(laws_of(definition, sets)),
       solver_(
           [&] {
             GridView view = view_of(definition);
@@ -285,7 +286,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
           store_of<T>(sets), executor) {}
 
 template <class T>
-void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
+void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) {
   const ParticleStore<T>& store = solver_.particles();
   const std::vector<std::uint32_t> id = store.id.download();
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -306,6 +307,11 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
       const std::vector<double> places = store.x[k].download();
       for (std::size_t p = 0; p < count; ++p) set.x[k][p] = places[from_where[p]];
     }
+    for (std::size_t k = 0; k < set.start_x.size(); ++k) {
+      const std::vector<std::int16_t> turns = solver_.put_around().turns(static_cast<int>(k)).download();
+      const double length = layout_.last_node(static_cast<int>(k)) * layout_.cell(static_cast<int>(k));
+      for (std::size_t p = 0; p < count && !turns.empty(); ++p) set.start_x[k][p] += turns[from_where[p]] * length;
+    }
     copy(store.v, set.v);
     copy(store.f, set.f);
     copy(store.tau, set.tau);
@@ -316,6 +322,7 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {
     }
     copy(store.affine, set.affine);
   }
+  solver_.clear_turns();
 }
 
 template class DeviceRun<double>;

@@ -30,7 +30,8 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
       run_(executor),
       passes_(&passes(dim, method.shape, T())),
       cells_(grid, dim),
-      holds_(dim, rubs(grid, dim) ? 2 * dim : 0) {
+      holds_(dim, rubs(grid, dim) ? 2 * dim : 0),
+      around_(grid, dim) {
   for (const LawOfSet& law : laws) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     rate_passes_.push_back(rate_pass(dim, law.index, T()));
@@ -55,6 +56,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   of_particles_.fit(Executor::groups_of(count_));
   of_momentum_.fit(Executor::groups_of(count_));
   of_faster_.fit(Executor::groups_of(count_));
+  around_.fit(count_);
   make_room();
 }
 
@@ -89,6 +91,7 @@ void Solver<T>::sort() {
   permute(store_.strain_before, place_room_);
   for (auto& one : store_.affine) permute(one, room_);
   permute(store_.id, id_room_);
+  for (int k = 0; k < 3; ++k) permute(around_.turns(k), around_.room());
   std::uint32_t* to = node_.data();
   std::uint8_t* fault = fault_.data();
   run_.for_each("gpu: sort", count_, [=](long i) {
@@ -167,6 +170,9 @@ void Solver<T>::step(double dt, Between<T>* between) {
   account(dt);
   ++steps_;
   check();
+  if (must_sort_ && around_.any()) {
+    around_.put(run_, {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, sets_);
+  }
 }
 
 template <class T>
@@ -308,8 +314,8 @@ std::size_t Solver<T>::particle_bytes() {
 
 template <class T>
 std::size_t Solver<T>::bytes() {
-  std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + mass_.bytes() + increment_.bytes() +
-                    of_nodes_.bytes() + of_particles_.bytes();
+  std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + mass_.bytes() +
+                    increment_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
   return sum + of_momentum_.bytes() + of_faster_.bytes();
 }

@@ -266,7 +266,7 @@ TEST(GpuStep, RefusesByName) {
   EXPECT_EQ(mpm_gpu::refused(d), "method.update implicit");
   d = gpu_scenes::column(mpm::Precision::float64);
   d.walls[0].kind = mpm::WallKind::absorbing;
-  EXPECT_EQ(mpm_gpu::refused(d), "an absorbing or periodic face");
+  EXPECT_EQ(mpm_gpu::refused(d), "an absorbing face");
   const std::vector<ParticleSet> none;
   EXPECT_THROW(DeviceRun<double>(d, none), mpm_gpu::GpuError);
 }

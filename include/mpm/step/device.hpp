@@ -51,8 +51,10 @@ class Device {
   virtual Fastest fastest(int set, double cell) = 0;
   /// Momentum given since the last call by the wall at a face, 2 * grid axis, + 1 for the upper one.
   virtual ImpulseAccount take_given(int face) = 0;
+  /// Sum of mass times the way that particles were put around periodic axes since the last call [kg m].
+  virtual Vec3 take_carried() = 0;
   /// Writes the particles as they are now to the host's sets, each to where its id lies.
-  virtual void fetch(std::vector<ParticleSet>& sets) const = 0;
+  virtual void fetch(std::vector<ParticleSet>& sets) = 0;
   /// Goes on from these particles, in place of its own.
   virtual void take(const std::vector<ParticleSet>& sets) = 0;
 };

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/simulation/rank_failure.hpp"
@@ -127,6 +128,7 @@ void Simulation::State::hand_to_device(const DeviceMaker& maker) {
 void Simulation::State::tell_modules() {
   for (Module* module : modules.list()) {
     if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
+    if (auto* axes = dynamic_cast<PeriodicAxes*>(module)) axes->count(device->take_carried());
   }
 }
 

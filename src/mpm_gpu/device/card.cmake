@@ -28,7 +28,7 @@ function(mpm_compile_for_card objects source)
 endfunction()
 
 set(card_objects)
-foreach(name cells holds near_copies solver)
+foreach(name cells holds near_copies put_around solver)
   mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -ffp-contract=off)
 endforeach()
 foreach(name passes laws)

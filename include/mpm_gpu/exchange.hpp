@@ -32,7 +32,8 @@ class DeviceRun {
   Solver<T>& solver() { return solver_; }
   /// Writes the particles' numbers back, each to where its id lies. They have moved: the simulation has to sort them.
   /// Their places at the start go around periodic axes as they have done since the last call.
-  void write_to(std::vector<mpm::ParticleSet>& sets);
+  /// `all`: whether more than places and velocities.
+  void write_to(std::vector<mpm::ParticleSet>& sets, bool all = true);
 
  private:
   mpm::GridLayout layout_;

@@ -15,6 +15,7 @@
 #include "mpm_gpu/average_pass.hpp"
 #include "mpm_gpu/particle_passes.hpp"
 #include "mpm_gpu/passes.hpp"
+#include "mpm_gpu/totals_pass.hpp"
 
 namespace mpm_gpu {
 
@@ -89,6 +90,13 @@ struct LawPasses<T, Geometry, std::variant<Laws...>> {
       return &RateKernel<T, Geometry, LawType>::run;
   }
   template <class LawType>
+  static constexpr TotalsPass<T> totals() {
+    if constexpr (std::is_same_v<LawType, mpm::UserLaw>)
+      return nullptr;
+    else
+      return &TotalsKernel<T, Geometry, LawType>::run;
+  }
+  template <class LawType>
   static constexpr AveragePass<T> averages() {
     if constexpr (LawType::kAveragesStress && !std::is_same_v<LawType, mpm::UserLaw>)
       return &AverageKernel<T, Geometry, LawType>::run;
@@ -98,6 +106,7 @@ struct LawPasses<T, Geometry, std::variant<Laws...>> {
   static constexpr AveragePass<T> kAverages[] = {averages<Laws>()...};
   static constexpr LawPass<T> kPasses[] = {pass<Laws>()...};
   static constexpr RatePass<T> kRates[] = {rates<Laws>()...};
+  static constexpr TotalsPass<T> kTotals[] = {totals<Laws>()...};
 };
 
 }  // namespace mpm_gpu

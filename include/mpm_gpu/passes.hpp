@@ -38,6 +38,10 @@ using AveragePass = void (*)(Executor&, const StepView<T>&, int set, const void*
 template <class T>
 using RatePass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double cell, double* rates);
 
+/// Sums over the particles of one set, each as of a particle of mass 1.
+template <class T>
+using TotalsPass = Totals (*)(Executor&, const StepView<T>&, int set, const void* law, Buffer<Totals>& room);
+
 /// In three dimensions or, with two axes, plane strain. The last argument tells the precision.
 const Passes<double>& passes(int dim, Shape shape, double);
 const Passes<float>& passes(int dim, Shape shape, float);
@@ -49,5 +53,7 @@ AveragePass<double> average_pass(int dim, std::size_t law, double);
 AveragePass<float> average_pass(int dim, std::size_t law, float);
 RatePass<double> rate_pass(int dim, std::size_t law, double);
 RatePass<float> rate_pass(int dim, std::size_t law, float);
+TotalsPass<double> totals_pass(int dim, std::size_t law, double);
+TotalsPass<float> totals_pass(int dim, std::size_t law, float);
 
 }  // namespace mpm_gpu

@@ -117,6 +117,8 @@ class Solver {
     std::array<double, 3> place;
   };
   Fastest fastest(int set, double cell);
+  /// Sums over the particles of a set.
+  Totals totals(int set);
   /// Momentum of all particles along the grid's axes [N s].
   std::array<double, 3> momentum();
   long steps() const { return steps_; }
@@ -171,14 +173,6 @@ class Solver {
       return *this;
     }
   };
-  struct Momentum {
-    double p[3] = {};
-    constexpr Momentum& operator+=(const Momentum& other) {
-      for (int k = 0; k < 3; ++k) p[k] += other.p[k];
-      return *this;
-    }
-  };
-
   GridView grid_;
   int dim_;
   Method method_;
@@ -190,6 +184,7 @@ class Solver {
   const Passes<T>* passes_;
   std::vector<LawPass<T>> law_passes_;
   std::vector<RatePass<T>> rate_passes_;
+  std::vector<TotalsPass<T>> totals_passes_;
   std::vector<AveragePass<T>> average_passes_;  ///< null for a law whose stress is not averaged
   CellTable cells_;
   WallHolds holds_;
@@ -206,7 +201,7 @@ class Solver {
   Buffer<double> increment_;  ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
-  Buffer<Momentum> of_momentum_;
+  Buffer<Totals> of_totals_;
   Buffer<Faster> of_faster_;
   Impulses impulses_;
   bool must_sort_ = true;

@@ -99,6 +99,27 @@ struct ParticleView {
 /// Findings of a kernel about a particle.
 enum Fault : std::uint8_t { kLeftCell = 1, kOutside = 2, kInverted = 4 };
 
+/// Sums over particles, times their mass: energies [J], momentum [N s], places [kg m].
+struct Totals {
+  double kinetic = 0.0, elastic = 0.0, plastic = 0.0;
+  double carried = 0.0;  ///< sum of speeds, as of momentum
+  double momentum[3] = {}, place[3] = {};
+  double least_j = 1e300;
+
+  constexpr Totals& operator+=(const Totals& other) {
+    kinetic += other.kinetic;
+    elastic += other.elastic;
+    plastic += other.plastic;
+    carried += other.carried;
+    for (int k = 0; k < 3; ++k) {
+      momentum[k] += other.momentum[k];
+      place[k] += other.place[k];
+    }
+    if (!(other.least_j >= least_j)) least_j = other.least_j;
+    return *this;
+  }
+};
+
 struct NodeView {
   long blocks, nodes;        ///< numbers of both
   const std::uint64_t* key;  ///< keys of the blocks, ascending

@@ -61,8 +61,18 @@ class RunDevice final : public mpm::Device {
     carried_before_ = now;
     return in_world(since);
   }
-  void fetch(std::vector<ParticleSet>& sets) override {
-    told([&] { run_->write_to(sets); });
+  Sums sums(int set) override {
+    Sums sums;
+    told([&] {
+      const Totals found = run_->solver().totals(set);
+      sums = {found.kinetic, found.elastic, found.plastic, found.carried, found.least_j, {}, {}};
+      sums.momentum = in_world({found.momentum[0], found.momentum[1], found.momentum[2]});
+      sums.place = in_world({found.place[0], found.place[1], found.place[2]});
+    });
+    return sums;
+  }
+  void fetch(std::vector<ParticleSet>& sets, Numbers which) override {
+    told([&] { run_->write_to(sets, which == Numbers::all); });
   }
   void take(const std::vector<ParticleSet>& sets) override {
     told([&] { begin(sets); });

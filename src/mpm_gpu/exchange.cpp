@@ -286,7 +286,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
           store_of<T>(sets), executor) {}
 
 template <class T>
-void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) {
+void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, bool all) {
   const ParticleStore<T>& store = solver_.particles();
   const std::vector<std::uint32_t> id = store.id.download();
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -313,6 +313,7 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) {
       for (std::size_t p = 0; p < count && !turns.empty(); ++p) set.start_x[k][p] += turns[from_where[p]] * length;
     }
     copy(store.v, set.v);
+    if (!all) continue;
     copy(store.f, set.f);
     copy(store.tau, set.tau);
     copy(store.history, set.history);

@@ -35,6 +35,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   for (const LawOfSet& law : laws) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     rate_passes_.push_back(rate_pass(dim, law.index, T()));
+    totals_passes_.push_back(totals_pass(dim, law.index, T()));
     average_passes_.push_back(average_pass(dim, law.index, T()));
     if (law_passes_.back() == nullptr) {
       throw GpuError("gpu: a law of a user's program does not run there: run the scene on the processor");
@@ -54,7 +55,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   place_room_.fit(count_);
   room_.fit(count_);
   of_particles_.fit(Executor::groups_of(count_));
-  of_momentum_.fit(Executor::groups_of(count_));
+  of_totals_.fit(Executor::groups_of(count_));
   of_faster_.fit(Executor::groups_of(count_));
   around_.fit(count_);
   make_room();
@@ -283,23 +284,26 @@ typename Solver<T>::Fastest Solver<T>::fastest(int set, double cell) {
 }
 
 template <class T>
-std::array<double, 3> Solver<T>::momentum() {
-  Momentum sum;
-  for (const SetView& set : sets_) {
-    const T* v[3] = {store_.v[0].data(), store_.v[1].data(), store_.v[2].data()};
-    const double mass = set.mass;
-    const long first = set.first;
-    const int dim = dim_;
-    sum += run_.reduce<Momentum>(
-        "gpu: accounts", set.count,
-        [=](long i) {
-          Momentum one;
-          for (int c = 0; c < dim; ++c) one.p[c] = mass * static_cast<double>(v[c][first + i]);
-          return one;
-        },
-        of_momentum_);
+Totals Solver<T>::totals(int number) {
+  const auto set = static_cast<std::size_t>(number);
+  Totals totals = totals_passes_[set](run_, view(0.0), number, laws_[set].data(), of_totals_);
+  const double mass = sets_[set].mass;
+  for (double* sum : {&totals.kinetic, &totals.elastic, &totals.plastic, &totals.carried}) *sum *= mass;
+  for (int k = 0; k < 3; ++k) {
+    totals.momentum[k] *= mass;
+    totals.place[k] *= mass;
   }
-  return {sum.p[0], sum.p[1], sum.p[2]};
+  return totals;
+}
+
+template <class T>
+std::array<double, 3> Solver<T>::momentum() {
+  std::array<double, 3> sum{};
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    const Totals of_set = totals(static_cast<int>(s));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += of_set.momentum[k];
+  }
+  return sum;
 }
 
 template <class T>
@@ -317,7 +321,7 @@ std::size_t Solver<T>::bytes() {
   std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + mass_.bytes() +
                     increment_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
-  return sum + of_momentum_.bytes() + of_faster_.bytes();
+  return sum + of_totals_.bytes() + of_faster_.bytes();
 }
 
 template class Solver<double>;

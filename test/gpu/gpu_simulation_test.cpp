@@ -109,6 +109,19 @@ TEST(GpuSimulation, ReadingChangesNothing) {
   EXPECT_EQ(quiet.state_hash(), read.state_hash());
 }
 
+// Places and velocities are brought to the host without the rest, which comes when it is asked for.
+TEST(GpuSimulation, ReadsInParts) {
+  Simulation whole(scene(averaged_column), options(true)), parts(scene(averaged_column), options(true));
+  advance(whole, 4);
+  advance(parts, 3);
+  field(parts, "vz");
+  field(parts, "ep");
+  parts.advance();
+  for (const char* name : {"z", "ep", "szz", "vx", "strain_energy"})
+    EXPECT_EQ(field(parts, name), field(whole, name)) << name;
+  EXPECT_EQ(parts.state_hash(), whole.state_hash());
+}
+
 // A particle that leaves the domain ends the run by a PhysicsError that names it, and the run does not go on.
 TEST(GpuSimulation, FailsAsARunDoes) {
   SimulationDefinition d = scene(gpu_scenes::falling_block);

@@ -53,8 +53,19 @@ class Device {
   virtual ImpulseAccount take_given(int face) = 0;
   /// Sum of mass times the way that particles were put around periodic axes since the last call [kg m].
   virtual Vec3 take_carried() = 0;
-  /// Writes the particles as they are now to the host's sets, each to where its id lies.
-  virtual void fetch(std::vector<ParticleSet>& sets) = 0;
+  /// Sums over the particles of a set.
+  struct Sums {
+    double kinetic = 0.0, elastic = 0.0, plastic = 0.0;  ///< [J]
+    double carried = 0.0;                                ///< sum of m |v| [N s]
+    double min_j = 0.0;                                  ///< smallest det F
+    Vec3 momentum = Vec3::Zero();                        ///< [N s]
+    Vec3 place = Vec3::Zero();                           ///< sum of m x [kg m]
+  };
+  virtual Sums sums(int set) = 0;
+  /// Numbers of the particles: none, places and velocities, or all.
+  enum class Numbers { none, motion, all };
+  /// Writes these of the particles as they are now to the host's sets, each to where its id lies.
+  virtual void fetch(std::vector<ParticleSet>& sets, Numbers which) = 0;
   /// Goes on from these particles, in place of its own.
   virtual void take(const std::vector<ParticleSet>& sets) = 0;
 };

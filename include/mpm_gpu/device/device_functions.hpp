@@ -6,4 +6,10 @@ __attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x);
 
 namespace std {
 __attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x); }
+// Of the energy of laws; law_functions.hpp defines them.
+__attribute__((device)) double log(double x);
+__attribute__((device)) double pow(double x, double y);
+__attribute__((device)) double cbrt(double x);
+__attribute__((device)) double log1p(double x);
+__attribute__((device)) double expm1(double x);
 }  // namespace std

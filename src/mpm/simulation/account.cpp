@@ -98,7 +98,11 @@ std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
 }
 
 Vec3 Simulation::State::momentum() {
-  fetch();
+  if (device) {
+    Vec3 total = Vec3::Zero();
+    for (std::size_t s = 0; s < sets.size(); ++s) total += device->sums(static_cast<int>(s)).momentum;
+    return total;
+  }
   Vec3 total = sum_particles(
       "particles: momentum", sets, threads, Vec3(Vec3::Zero()),
       [&](const ParticleSet& set, int p) { return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p)); });
@@ -147,18 +151,25 @@ MaterialTotals& MaterialTotals::operator+=(const MaterialTotals& other) {
   return *this;
 }
 
+MaterialTotals Simulation::State::totals_of_device(int set) {
+  const Device::Sums sums = device->sums(set);
+  return {sums.kinetic, -definition.gravity.dot(sums.place), sums.elastic, sums.plastic, sums.carried, sums.min_j};
+}
+
 const RunTotals& Simulation::State::find_totals() {
-  fetch();
+  if (device) tell_modules();
   totals.energy.begin_again();
   totals.of_set.resize(sets.size());
   MaterialTotals& of_all = totals.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
     if (!closes_energy(traits_of(laws[i]))) totals.energy.leave_open();
-    of_all += std::visit(
-        [&](const auto& law) {
-          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads, totals.of_set[i]);
-        },
-        laws[i]);
+    of_all += device ? totals_of_device(static_cast<int>(i))
+                     : std::visit(
+                           [&](const auto& law) {
+                             return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads,
+                                              totals.of_set[i]);
+                           },
+                           laws[i]);
   }
   totals.energy.add("kinetic", NamedEnergy::Kind::stored, of_all.kinetic);
   totals.energy.add("elastic", NamedEnergy::Kind::stored, of_all.elastic);

@@ -64,7 +64,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg,
                                      &step_implicit};  // in the order of UpdateScheme
   if (device) {
-    device_ahead = true;
+    fetched = Device::Numbers::none;
     context.strain_at_start = strain_at_start(definition.method.update);
     if (host_contact) host_contact->begin_step(context);
     device->step(dt, host_contact.get());
@@ -106,10 +106,10 @@ bool Simulation::State::step(double start, double dt, bool more) {
   return now.stops;
 }
 
-void Simulation::State::fetch() {
-  if (!device_ahead) return;
-  device->fetch(sets);
-  device_ahead = false;
+void Simulation::State::fetch(Device::Numbers which) {
+  if (fetched >= which) return;
+  device->fetch(sets, which);
+  fetched = which;
   moved_by_device = true;
   tell_modules();
 }

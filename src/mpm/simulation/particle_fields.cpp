@@ -88,7 +88,6 @@ void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, i
 }  // namespace
 
 std::vector<SetView> Simulation::State::views() {
-  fetch();
   std::vector<SetView> list;
   const QuantityDefinition* heat = definition.transport.find(Transported::temperature);
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -134,6 +133,14 @@ std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std
     }
   }
   return fields;
+}
+
+/// Numbers of particles that these fields are made of.
+Device::Numbers numbers_of(const std::vector<Chosen>& fields) {
+  const auto more = [](const Chosen& chosen) {
+    return chosen.field == nullptr || chosen.field->needs != kNeedsNothing;
+  };
+  return std::any_of(fields.begin(), fields.end(), more) ? Device::Numbers::all : Device::Numbers::motion;
 }
 
 std::int64_t by_id(const SetView& view, int p) { return view.set.id[p]; }
@@ -247,6 +254,7 @@ void Simulation::particle_field(const std::string& name, std::vector<double>& va
 void Simulation::read_fields(const std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
+  state_->fetch(numbers_of(fields));
   if (state_->over) return fill_own(sets, fields, state_->threads, columns);
   if (state_->renews_particles()) {
     fill_own(sets, fields, state_->threads, columns);
@@ -270,6 +278,7 @@ void Simulation::read_particles(const std::vector<std::string>& names, const Par
   }
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
+  state_->fetch(numbers_of(fields));
   const bool whole = choice.stride == 1 && !choice.region;
   std::vector<std::int64_t> rows;
   columns.ids.clear();
@@ -305,6 +314,7 @@ void Simulation::read_own_particles(const std::vector<std::string>& names, const
                                     ParticleColumns& columns) const {
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
+  state_->fetch(numbers_of(fields));
   std::vector<std::vector<std::int64_t>> rows(sets.size());
   columns.ids.clear();
   for (const SetView& view : sets) {

@@ -15,12 +15,13 @@ namespace mpm {
 
 /// Parts that a view has to hold.
 enum ViewNeeds : unsigned {
-  kNeedsNothing = 0,
-  kNeedsVolume = 1,    ///< j
-  kNeedsStress = 2,    ///< cauchy, and j
-  kNeedsStrain = 4,    ///< total
-  kNeedsElastic = 8,   ///< elastic, free, total
-  kNeedsRotation = 16  ///< rotation
+  kNeedsNothing = 0,    ///< nothing, or places and velocities, which are the set's
+  kNeedsVolume = 1,     ///< j
+  kNeedsStress = 2,     ///< cauchy, and j
+  kNeedsStrain = 4,     ///< total
+  kNeedsElastic = 8,    ///< elastic, free, total
+  kNeedsRotation = 16,  ///< rotation
+  kNeedsHistory = 32    ///< the law's history, which is the set's
 };
 
 /// Facts that a set's particles have in common.

@@ -195,7 +195,8 @@ void Simulation::State::serialise(StateArchive& archive) {
   }
   if (archive.reading()) {
     failed = true;  // until all has been read
-    device_ahead = moved_by_device = false;
+    fetched = Device::Numbers::all;
+    moved_by_device = false;
   }
   archive.value("time", time);
   archive.value("steps", steps.steps);

@@ -85,10 +85,10 @@ struct Simulation::State {
   std::unique_ptr<NodeChoice> choice;  ///< choice of fields by particles near cracks
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
-  std::unique_ptr<Device> device;  ///< another processor that takes the steps, else null
-  std::unique_ptr<ContactOnHost> host_contact;  ///< contact in the device's steps; null without one, or rigid bodies
-  bool device_ahead = false;       ///< true if it has taken steps that the sets do not show yet
-  bool moved_by_device = false;    ///< true if sets show its steps and have not been sorted since
+  std::unique_ptr<Device> device;                  ///< another processor that takes the steps, else null
+  std::unique_ptr<ContactOnHost> host_contact;     ///< contact in the device's steps; null without one, or rigid bodies
+  Device::Numbers fetched = Device::Numbers::all;  ///< numbers that the sets show as the device has them
+  bool moved_by_device = false;                    ///< true if sets show its steps and have not been sorted since
   std::vector<RigidBody> bodies;
   std::vector<std::unique_ptr<Robot>> robots;  ///< robots, whose links are among the bodies
   Modules modules;
@@ -111,8 +111,9 @@ struct Simulation::State {
   std::vector<LineFit> rates;          ///< rate of each metric; those without a window stay empty
   std::vector<PeriodWrench> wrenches;  ///< wrench of each rigid body; empty where no metric is a force or a torque
 
-  /// Brings sets and accounts up to date with the device, if there is one. All that reads them calls it before.
-  void fetch();
+  /// Brings these numbers of the sets, and accounts, up to date with the device, if there is one. All that reads them
+  /// calls it before.
+  void fetch(Device::Numbers which = Device::Numbers::all);
   /// Lets a device take the steps from here on.
   void hand_to_device(const DeviceMaker& maker);
   /// Lets modules take note of the start, as they else do in the first step.
@@ -161,6 +162,8 @@ struct Simulation::State {
   /// `now` [s]; `found`: what the material allows then. @throws PhysicsError when the run makes energy
   void watch_energy(double now, const StepLimit& found);
   const RunTotals& find_totals();
+  /// Sums over a set's particles, which the device finds.
+  MaterialTotals totals_of_device(int set);
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
   /// One step of the schedule, with the checks after it; it begins at `start` [s]. `more`: whether others follow in the

@@ -6,11 +6,13 @@
 #include "mpm_gpu/device/host_headers.hpp"
 
 #pragma clang force_cuda_host_device begin
+#include "mpm/material/norsand_energy.hpp"
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #pragma clang force_cuda_host_device end
+#include "mpm_gpu/device/law_functions.hpp"
 
 namespace mpm_gpu {
 
@@ -20,6 +22,14 @@ __attribute__((global)) void launch(Kernel kernel, long count) {
   const long i =
       static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + __nvvm_read_ptx_sreg_tid_x();
   if (i < count) kernel(i);
+}
+
+/// The same of what is summed.
+template <class Kernel, class Sum>
+__attribute__((global)) void launch_sum(Kernel kernel, long count, Sum* sums) {
+  const long i =
+      static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + __nvvm_read_ptx_sreg_tid_x();
+  if (i < count) sums[i] += kernel(i);
 }
 
 template <class T, class Geometry, template <class> class ShapeClass>
@@ -43,6 +53,7 @@ template <class T, class Geometry, class OneLaw>
 void law() {
   if constexpr (kOnDevice<OneLaw>) (void)&launch<LawKernel<T, Geometry, OneLaw>>;
   if constexpr (kOnDevice<OneLaw>) (void)&launch<RateKernel<T, Geometry, OneLaw>>;
+  if constexpr (kOnDevice<OneLaw>) (void)&launch_sum<TotalsKernel<T, Geometry, OneLaw>, Totals>;
   if constexpr (kOnDevice<OneLaw> && OneLaw::kAveragesStress) (void)&launch<AverageKernel<T, Geometry, OneLaw>>;
 }
 template <class T, class Geometry, class... Laws>

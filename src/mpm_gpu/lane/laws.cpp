@@ -1,3 +1,4 @@
+#include "mpm/material/norsand_energy.hpp"
 #include "mpm_gpu/law_passes.hpp"
 
 namespace mpm_gpu {
@@ -13,6 +14,12 @@ RatePass<double> rate_pass(int dim, std::size_t law, double) {
 }
 RatePass<float> rate_pass(int dim, std::size_t law, float) {
   return dim == 3 ? LawPasses<float, mpm::Solid>::kRates[law] : LawPasses<float, mpm::PlaneStrain>::kRates[law];
+}
+TotalsPass<double> totals_pass(int dim, std::size_t law, double) {
+  return dim == 3 ? LawPasses<double, mpm::Solid>::kTotals[law] : LawPasses<double, mpm::PlaneStrain>::kTotals[law];
+}
+TotalsPass<float> totals_pass(int dim, std::size_t law, float) {
+  return dim == 3 ? LawPasses<float, mpm::Solid>::kTotals[law] : LawPasses<float, mpm::PlaneStrain>::kTotals[law];
 }
 AveragePass<double> average_pass(int dim, std::size_t law, double) {
   return dim == 3 ? LawPasses<double, mpm::Solid>::kAverages[law] : LawPasses<double, mpm::PlaneStrain>::kAverages[law];

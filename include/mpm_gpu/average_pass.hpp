@@ -24,7 +24,7 @@ struct AverageKernel {
   mpm::FlowingArrays<T> arrays;
   const void* law;  ///< law of the set, where kernels are run
   int number;       ///< number of the set
-  double mass;
+  SetView set;
 
   /// visit(particle) for those of the cell above a node.
   template <class Visit>
@@ -43,7 +43,7 @@ struct AverageKernel {
         bool within = true;
         for (int k = 0; k < kDim; ++k) {
           const double cells = in_cells(step.grid, k, step.particles.x[k][p]);
-          within = within && static_cast<int>(cells + 64.0) - 64 == corner[k];
+          within = within && around(step.grid, k, static_cast<int>(cells + 64.0) - 64) == corner[k];
         }
         if (within) visit(p);
       }
@@ -65,6 +65,7 @@ struct AverageKernel {
       if (!particles.flows(p)) return;
       double own[Stored::kCount];
       particles.stress(p, own);
+      const double mass = mass_of(step.particles, set, p).v;
       sum += mass;
       volume += mass * particles.volume_ratio(p);
       for (int i = 0; i < Stored::kCount; ++i) stress[i] += mass * own[i];
@@ -84,7 +85,7 @@ struct AverageKernel {
 
   static void run(Executor& run, const StepView<T>& step, int number, const void* law) {
     const SetView& set = step.sets[number];
-    AverageKernel kernel{step, {}, law, number, set.mass};
+    AverageKernel kernel{step, {}, law, number, set};
     for (int i = 0; i < 6; ++i) kernel.arrays.stress[i] = step.particles.tau[i];
     for (int i = 0; i < 9; ++i) kernel.arrays.gradient[i] = step.particles.f[i];
     kernel.arrays.strain = step.particles.history[LawType::kPlasticStrain];

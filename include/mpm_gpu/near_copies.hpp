@@ -29,9 +29,9 @@ class NearCopies {
   void take_blocks(Executor& run, const NodeView& nodes, const std::vector<std::int32_t>& blocks, bool mark);
   /// [node] 1 where it is marked; null if none is.
   const std::uint8_t* marks() const { return marks_.data(); }
-  /// Takes these particles, by their numbers, and copies their ids to the host.
+  /// Takes these particles, by their numbers, and copies their ids to the host, and their `surface` where there is one.
   void take_particles(Executor& run, const StepView<T>& step, const std::vector<std::uint32_t>& particles,
-                      std::vector<std::uint32_t>& ids);
+                      std::vector<std::uint32_t>& ids, std::vector<double>& surface);
 
   /// Copies `components` of each node to the host.
   void download(Executor& run, const NodeView& nodes, const double* from, int components, double* to);

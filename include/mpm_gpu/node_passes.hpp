@@ -22,12 +22,12 @@ struct MomentumKernel {
     double mass = 0.0, momentum[kDim] = {};
     each_particle_of<T, kDim, ShapeClass, Affine ? Beside::affine : Beside::gradient>(
         step, node, number, [&](const SetView& set, long p, const auto& stencil, const int* n) {
-          const W part = W(set.mass) * stencil.value(n);
+          const W of_particle = mass_of(step.particles, set, p), part = of_particle * stencil.value(n);
           mass += part.v;
           W sum[kDim];
           for (int c = 0; c < kDim; ++c) sum[c] = part * W::load(step.particles.v[c] + p);
           for (int k = 0; Affine && k < kDim; ++k) {
-            const W arm = W(set.mass) * stencil.beside(n, k);
+            const W arm = of_particle * stencil.beside(n, k);
             for (int c = 0; c < kDim; ++c) sum[c] += arm * W::load(step.particles.affine[c * kDim + k] + p);
           }
           for (int c = 0; c < kDim; ++c) momentum[c] += sum[c].v;
@@ -60,11 +60,12 @@ struct ForceKernel {
     if (mass > step.grid.least_mass) {
       const auto add = [&](const SetView& set, long p, const auto& stencil, const int* n) {
         const auto stress = Geometry::load_symmetric(mpm::WideReader<T>{step.particles.tau, 1}, static_cast<int>(p));
+        const W of_particle = mass_of(step.particles, set, p);
         W sum[kDim] = {};
         for (int k = 0; k < kDim; ++k) {
           W column[kDim];
           Geometry::column(stress, k, column);
-          const W slope = W(-set.mass) * stencil.beside(n, k);
+          const W slope = -of_particle * stencil.beside(n, k);
           for (int c = 0; c < kDim; ++c) sum[c] += column[c] * slope;
         }
         for (int c = 0; c < kDim; ++c) force[c] += sum[c].v;
@@ -127,7 +128,7 @@ struct IncrementKernel {
     double momentum[Dim] = {};
     each_particle_of<T, Dim, ShapeClass>(step, node, number,
                                          [&](const SetView& set, long p, const auto& stencil, const int* n) {
-                                           const W part = W(set.mass) * stencil.value(n);
+                                           const W part = mass_of(step.particles, set, p) * stencil.value(n);
                                            for (int c = 0; c < Dim; ++c)
                                              momentum[c] += (part * W::load(step.particles.gradient[c] + p)).v;
                                          });

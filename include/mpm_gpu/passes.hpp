@@ -38,7 +38,7 @@ using AveragePass = void (*)(Executor&, const StepView<T>&, int set, const void*
 template <class T>
 using RatePass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double cell, double* rates);
 
-/// Sums over the particles of one set, each as of a particle of mass 1.
+/// Sums over the particles of one set; where all have the same mass, as if it were 1.
 template <class T>
 using TotalsPass = Totals (*)(Executor&, const StepView<T>&, int set, const void* law, Buffer<Totals>& room);
 

@@ -17,8 +17,9 @@ class PutAround {
 
   bool any() const { return grid_.period[0] + grid_.period[1] + grid_.period[2] > 0; }
   void fit(long particles);
-  /// Puts back what is out. `x`: places along each axis [m].
-  void put(Executor& run, const std::array<double*, 3>& x, const std::vector<SetView>& sets);
+  /// Puts back what is out. `x`: places along each axis [m]; `mass`: as in ParticleView.
+  template <class T>
+  void put(Executor& run, const std::array<double*, 3>& x, const T* mass, const std::vector<SetView>& sets);
   /// Sum of mass times the way that it was put, along the grid's axes, since the start [kg m].
   const std::array<double, 3>& carried() const { return carried_; }
   /// Lengths of the domain by which each particle was put along an axis since clear_turns(). Empty of other axes.
@@ -29,7 +30,7 @@ class PutAround {
 
  private:
   struct Count {
-    double lengths[3] = {};
+    double lengths[3] = {};  ///< lengths of each axis, times the mass [kg]
     constexpr Count& operator+=(const Count& other) {
       for (int k = 0; k < 3; ++k) lengths[k] += other.lengths[k];
       return *this;

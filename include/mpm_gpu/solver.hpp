@@ -39,6 +39,8 @@ struct ParticleStore {
   std::array<Buffer<T>, kMostHistory> history;
   Buffer<double> strain_before;
   std::array<Buffer<T>, 9> affine;
+  Buffer<T> mass;     ///< empty where all particles of each set have the same [kg]
+  Buffer<T> surface;  ///< ParticleSet::surface; empty without cut places
   Buffer<std::uint32_t> id;
 
   /// visit(buffer) for each.
@@ -51,6 +53,8 @@ struct ParticleStore {
     for (const auto& one : history) visit(one);
     visit(strain_before);
     for (const auto& one : affine) visit(one);
+    visit(mass);
+    visit(surface);
     visit(id);
   }
 };

@@ -118,6 +118,12 @@ class Stencil {
   W s_[Dim][kNodes], g_[Dim][kNodes];
 };
 
+/// Mass of a particle [kg].
+template <class T>
+mpm::Wide<T> mass_of(const ParticleView<T>& particles, const SetView& set, long p) {
+  return particles.mass == nullptr ? mpm::Wide<T>(set.mass) : mpm::Wide<T>::load(particles.mass + p);
+}
+
 /// visit(n) for the places n[k] of 0 to Nodes - 1, the last axis fastest.
 template <int Dim, int Nodes, class Visit>
 void each_beside(Visit&& visit) {

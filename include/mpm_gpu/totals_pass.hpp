@@ -30,20 +30,21 @@ struct TotalsKernel {
     const LawType& of = *static_cast<const LawType*>(law);
     const auto f = mpm::full(Geometry::load_matrix(InDouble<T>{particles.f}, p));
     const auto tau = mpm::full(Geometry::load_symmetric(InDouble<T>{particles.tau}, p));
+    const double mass = particles.mass == nullptr ? 1.0 : static_cast<double>(particles.mass[p]);
     Totals one;
     double squared = 0.0;
     for (int k = 0; k < kDim; ++k) {
       const auto v = static_cast<double>(particles.v[k][p]);
       squared += v * v;
-      one.momentum[k] = v;
-      one.place[k] = particles.x[k][p];
+      one.momentum[k] = mass * v;
+      one.place[k] = mass * particles.x[k][p];
     }
-    one.kinetic = 0.5 * squared;
-    one.carried = __builtin_sqrt(squared);
+    one.kinetic = mass * (0.5 * squared);
+    one.carried = mass * __builtin_sqrt(squared);
     one.least_j = determinant(f);
-    one.elastic = of.elastic_energy(f, tau, one.least_j);
+    one.elastic = mass * of.elastic_energy(f, tau, one.least_j);
     if constexpr (LawType::kPlasticWork >= 0) {
-      one.plastic = static_cast<double>(particles.history[LawType::kPlasticWork][p]);
+      one.plastic = mass * static_cast<double>(particles.history[LawType::kPlasticWork][p]);
       one.elastic -= of.heat_fraction() * one.plastic;
     }
     return one;

@@ -94,6 +94,8 @@ struct ParticleView {
   std::uint32_t* node;    ///< number of the nearest node in the table
   std::uint8_t* fault;    ///< bits of Fault, in this step
   std::uint32_t* id;      ///< as in the solver
+  const T* mass;          ///< null where all of each set have the same [kg]
+  const T* surface;       ///< ParticleSet::surface; null without cut places
 };
 
 /// Findings of a kernel about a particle.

@@ -39,10 +39,6 @@ bool any_tool(const SimulationDefinition& d, bool (*is)(const mpm::RigidBodyDefi
 bool several_fields(const SimulationDefinition& d) {
   return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
 }
-bool cut_places(const SimulationDefinition& d) {
-  return std::any_of(d.bodies.begin(), d.bodies.end(),
-                     [](const auto& body) { return !body.parts.empty() || !body.surfaces.empty(); });
-}
 
 Face face_of(mpm::WallKind kind) {
   switch (kind) {
@@ -126,10 +122,6 @@ std::vector<mpm::Law> laws_of(const SimulationDefinition& d, const std::vector<P
   const std::string feature = refused(d);
   if (!feature.empty()) throw GpuError(refusal(feature));
   std::vector<mpm::Law> laws;
-  for (const ParticleSet& set : sets) {
-    if (!set.masses.empty())
-      throw GpuError("gpu: body '" + set.name + "' has particles of unlike mass: they do not run there");
-  }
   for (const ParticleSet& set : sets) laws.push_back(make_law(find_material(d, body_of(d, set.name))));
   return laws;
 }
@@ -172,8 +164,8 @@ std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
 }
 
 double least_mass(const std::vector<ParticleSet>& sets) {
-  double least = sets.front().mass;
-  for (const ParticleSet& set : sets) least = std::min(least, set.mass);
+  double least = sets.front().least_mass();
+  for (const ParticleSet& set : sets) least = std::min(least, set.least_mass());
   return 1e-30 * least;  // as the solver has it
 }
 
@@ -183,7 +175,8 @@ template <class T>
 std::size_t bytes_of_particle(const ParticleSet& set) {
   const std::size_t axes = set.x.size(), of_solver = axes * axes + 1;
   return (axes + 1) * sizeof(double) + 3 * sizeof(std::uint32_t) + 1 + 200 +
-         (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + set.affine.size() + of_solver) *
+         (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + set.affine.size() + set.masses.size() +
+          set.surface.size() + of_solver) *
              sizeof(T);
 }
 
@@ -196,6 +189,10 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     count += set.size();
     bytes = std::max(bytes, bytes_of_particle<T>(set));
   }
+  const auto has = [&](std::vector<mpm::ParticleScalar> ParticleSet::*scalar) {
+    return std::any_of(sets.begin(), sets.end(), [&](const ParticleSet& set) { return !(set.*scalar).empty(); });
+  };
+  const bool any_mass = has(&ParticleSet::masses), any_surface = has(&ParticleSet::surface);
   Executor::require(count, bytes);
   store.id.fit(count);
   for (const ParticleSet& set : sets) {
@@ -218,6 +215,16 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
       store.strain_before.upload(std::vector<double>(before->begin(), before->end()), first);
     }
     copy(set.affine, store.affine);
+    // Of all sets where one has them.
+    const auto complete = [&](const auto& from, bool any, double same, Buffer<T>& to) {
+      std::vector<T> numbers(set.size(), static_cast<T>(same));
+      for (int p = 0; p < set.size() && !from.empty(); ++p) numbers[p] = static_cast<T>(from[0][p]);
+      if (!any) return;
+      to.fit(count);
+      to.upload(numbers, first);
+    };
+    complete(set.masses, any_mass, set.mass, store.mass);
+    complete(set.surface, any_surface, 1.0, store.surface);
     store.id.upload(std::vector<std::uint32_t>(set.id.begin(), set.id.end()), first);
     first += set.size();
   }
@@ -238,7 +245,6 @@ std::string refused(const SimulationDefinition& d) {
       {d.method.damping.any(), "method.damping"},
       {any_user_law(d), "a law of a user's program"},
       {several_fields(d), "contact of deformable bodies"},
-      {cut_places(d), "a body with a curved surface that cuts particles"},
       {any_tool(d, [](const mpm::RigidBodyDefinition& body, const SimulationDefinition&) { return body.particles; }),
        "a rigid body made of particles"},
       {any_tool(d,

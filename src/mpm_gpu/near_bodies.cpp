@@ -115,14 +115,20 @@ void NearBodies<T>::take(Executor& run, const StepView<T>& step) {
     blocks_.push_back(place_of(keys_.data(), static_cast<long>(keys_.size()), key));
   }
   copies_.take_blocks(run, step.nodes, blocks_, rubs_);
-  copies_.take_particles(run, step, particles_, ids_);
+  copies_.take_particles(run, step, particles_, ids_, numbers_);
   auto id = ids_.begin();
+  const double* surface = numbers_.data();
   for (mpm::ParticleSet& set : contact_.sets()) {
     const std::size_t count = set.begin.back(), room = 2 * count;
     set.id.resize(count, room);
     std::copy_n(id, count, set.id.begin());
     id += static_cast<std::ptrdiff_t>(count);
     const auto fit = [&](auto& values) { values.resize(count, room); };
+    for (mpm::ParticleScalar& scalar : set.surface) {
+      scalar.visit(fit);
+      for (std::size_t p = 0; p < count; ++p) scalar.set(p, surface[p]);
+    }
+    surface += count;
     for (auto& scalar : set.x) fit(scalar);
     for (auto* scalars : {&set.v, &set.f}) {
       for (mpm::ParticleScalar& scalar : *scalars) scalar.visit(fit);

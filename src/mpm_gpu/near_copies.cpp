@@ -60,7 +60,7 @@ void NearCopies<T>::take_blocks(Executor& run, const NodeView& nodes, const std:
 
 template <class T>
 void NearCopies<T>::take_particles(Executor& run, const StepView<T>& step, const std::vector<std::uint32_t>& particles,
-                                   std::vector<std::uint32_t>& ids) {
+                                   std::vector<std::uint32_t>& ids, std::vector<double>& surface) {
   particles_ = static_cast<long>(particles.size());
   grow(particle_, particles_);
   particle_.upload(particles);
@@ -70,6 +70,14 @@ void NearCopies<T>::take_particles(Executor& run, const StepView<T>& step, const
   run.for_each("gpu: particles near bodies", particles_, [=](long i) { to[i] = from[particle[i]]; });
   ids.resize(particles.size());
   whole_room_.download(ids.data(), particles_);
+  const T* reach = step.particles.surface;
+  if (reach == nullptr) return;
+  grow(room_, particles_);
+  double* room = room_.data();
+  run.for_each("gpu: particles near bodies", particles_,
+               [=](long i) { room[i] = static_cast<double>(reach[particle[i]]); });
+  surface.resize(particles.size());
+  room_.download(surface.data(), particles_);
 }
 
 template <class T>

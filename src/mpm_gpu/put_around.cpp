@@ -11,12 +11,16 @@ void PutAround::fit(long particles) {
   sums_.fit(Executor::groups_of(particles));
 }
 
-void PutAround::put(Executor& run, const std::array<double*, 3>& places, const std::vector<SetView>& sets) {
+template <class T>
+void PutAround::put(Executor& run, const std::array<double*, 3>& places, const T* mass,
+                    const std::vector<SetView>& sets) {
   struct Kernel {
     GridView grid;
     double* x[3];
     std::int16_t* turns[3];
     int dim;
+    const T* mass;
+    double same_mass;
     std::uint32_t first;
     constexpr Count operator()(long i) const {
       Count count;
@@ -28,7 +32,7 @@ void PutAround::put(Executor& run, const std::array<double*, 3>& places, const s
         if (lengths == 0) continue;
         place += lengths * (period / grid.inverse_cell[k]);
         turns[k][first + i] = static_cast<std::int16_t>(turns[k][first + i] + lengths);
-        count.lengths[k] += lengths;
+        count.lengths[k] += lengths * (mass == nullptr ? same_mass : static_cast<double>(mass[first + i]));
       }
       return count;
     }
@@ -38,13 +42,18 @@ void PutAround::put(Executor& run, const std::array<double*, 3>& places, const s
                         {places[0], places[1], places[2]},
                         {turns_[0].data(), turns_[1].data(), turns_[2].data()},
                         dim_,
+                        mass,
+                        set.mass,
                         set.first};
     const Count all = run.reduce<Count>("gpu: back in the period", set.count, kernel, sums_);
     for (int k = 0; k < dim_; ++k) {
-      carried_[static_cast<std::size_t>(k)] += set.mass * all.lengths[k] * grid_.period[k] / grid_.inverse_cell[k];
+      carried_[static_cast<std::size_t>(k)] += all.lengths[k] * grid_.period[k] / grid_.inverse_cell[k];
     }
   }
 }
+
+template void PutAround::put(Executor&, const std::array<double*, 3>&, const double*, const std::vector<SetView>&);
+template void PutAround::put(Executor&, const std::array<double*, 3>&, const float*, const std::vector<SetView>&);
 
 void PutAround::clear_turns(Executor& run) {
   for (Buffer<std::int16_t>& one : turns_) {

@@ -91,6 +91,8 @@ void Solver<T>::sort() {
   for (auto& one : store_.history) permute(one, room_);
   permute(store_.strain_before, place_room_);
   for (auto& one : store_.affine) permute(one, room_);
+  permute(store_.mass, room_);
+  permute(store_.surface, room_);
   permute(store_.id, id_room_);
   for (int k = 0; k < 3; ++k) permute(around_.turns(k), around_.room());
   std::uint32_t* to = node_.data();
@@ -125,6 +127,8 @@ StepView<T> Solver<T>::view(double dt) {
   particles.node = node_.data();
   particles.fault = fault_.data();
   particles.id = store_.id.data();
+  particles.mass = store_.mass.data();
+  particles.surface = store_.surface.data();
   view.nodes = cells_.view();
   view.nodes.mass = mass_.data();
   view.nodes.momentum = nodal_[0].data();
@@ -172,7 +176,7 @@ void Solver<T>::step(double dt, Between<T>* between) {
   ++steps_;
   check();
   if (must_sort_ && around_.any()) {
-    around_.put(run_, {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, sets_);
+    around_.put(run_, {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.mass.data(), sets_);
   }
 }
 
@@ -287,7 +291,7 @@ template <class T>
 Totals Solver<T>::totals(int number) {
   const auto set = static_cast<std::size_t>(number);
   Totals totals = totals_passes_[set](run_, view(0.0), number, laws_[set].data(), of_totals_);
-  const double mass = sets_[set].mass;
+  const double mass = store_.mass.size() > 0 ? 1.0 : sets_[set].mass;
   for (double* sum : {&totals.kinetic, &totals.elastic, &totals.plastic, &totals.carried}) *sum *= mass;
   for (int k = 0; k < 3; ++k) {
     totals.momentum[k] *= mass;

@@ -9,6 +9,7 @@
 #include "gpu_scenes.hpp"
 #include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/rigid/surface.hpp"
+#include "mpm/scene/scene.hpp"
 
 namespace gpu_contact_test {
 
@@ -48,6 +49,30 @@ SimulationDefinition at_nodes(SimulationDefinition d) {
 }
 SimulationDefinition block_at_nodes(mpm::Precision precision) { return at_nodes(pressed_block(precision)); }
 SimulationDefinition column_at_nodes(mpm::Precision precision) { return at_nodes(pushed_column(precision)); }
+
+/// A plate presses a ball of clay, whose surface cuts the places of particles: they have masses and reaches of their
+/// own.
+SimulationDefinition pressed_ball(mpm::Precision precision) {
+  const mpm::Scene ball = mpm::parse_scene(R"(
+grid: {cell: 0.1, min: [0, 0, 0], max: [1.2, 1.2, 1.2]}
+gravity: [0, 0, -9.81]
+method: {update: usavg, average_stress: true}
+materials: [{name: clay, law: j2_plasticity, density: 1800, young: 1 MPa, poisson: 0.4, yield_stress: 5 kPa}]
+bodies: [{name: ball, material: clay, shape: {sphere: {center: [0.61, 0.58, 0.305], radius: 0.3}}}]
+boundaries: {all: slip, z_min: fixed}
+)",
+                                           "ball.yaml");
+  SimulationDefinition d = mpm::build(ball);
+  d.method.precision = precision;
+  d.contact.method = mpm::ContactMethod::nodes;
+  d.rigid_bodies = {tool("plate", mpm::make_box({0.7, 0.7, 0.35}), {0.6, 0.6, 0.79}, {0.2, 0.0, -1.0})};
+  return d;
+}
+SimulationDefinition ball_at_points(mpm::Precision precision) {
+  SimulationDefinition d = pressed_ball(precision);
+  d.contact.method = mpm::ContactMethod::points;
+  return d;
+}
 
 /// A heavy ball falls on the block, free to turn.
 SimulationDefinition struck_block(mpm::Precision precision) {
@@ -103,10 +128,10 @@ void expect_contact_alike(Simulation& here, Simulation& there, double bound) {
   expect_near(at.twist.angular, to.twist.angular, 10.0 * bound, "rotation");
 }
 
-void expect_touch_alike(SimulationDefinition (*of)(mpm::Precision), double bound = kRoundOff) {
+void expect_touch_alike(SimulationDefinition (*of)(mpm::Precision), double bound = kRoundOff, int periods = kPeriods) {
   Simulation here(scene(of), options(false)), there(scene(of), options(true));
-  advance(here, kPeriods);
-  advance(there, kPeriods);
+  advance(here, periods);
+  advance(there, periods);
   expect_alike(here, there, bound);
   expect_contact_alike(here, there, bound);
 }
@@ -120,6 +145,12 @@ TEST(GpuContact, BlockAtPoints) { expect_touch_alike(pressed_block); }
 TEST(GpuContact, BlockAtNodes) { expect_touch_alike(block_at_nodes); }
 TEST(GpuContact, ColumnAtPoints) { expect_touch_alike(pushed_column, kSweeps); }
 TEST(GpuContact, ColumnAtNodes) { expect_touch_alike(column_at_nodes); }
+TEST(GpuContact, CutBallAtNodes) {
+  ASSERT_FALSE(pressed_ball(mpm::Precision::float64).bodies.front().parts.empty());
+  expect_touch_alike(pressed_ball);
+}
+// Compared until particles leave their cells.
+TEST(GpuContact, CutBallAtPoints) { expect_touch_alike(ball_at_points, kRoundOff, 3); }
 TEST(GpuContact, FreeBallOnBlock) { expect_touch_alike(struck_block); }
 TEST(GpuContact, FreeBallWithFmpm) { expect_touch_alike(struck_with_fmpm); }
 TEST(GpuContact, ColumnWithXpic) { expect_touch_alike(pushed_with_xpic); }

@@ -32,6 +32,11 @@ SimulationDefinition flowing_layer(mpm::Precision precision) {
   }
   return d;
 }
+SimulationDefinition flowing_with_mean_stresses(mpm::Precision precision) {
+  SimulationDefinition d = flowing_layer(precision);
+  d.method.average_stress = true;
+  return d;
+}
 SimulationDefinition flowing_with_cubic_splines(mpm::Precision precision) {
   SimulationDefinition d = flowing_layer(precision);
   d.method.shape = mpm::ShapeKind::bspline3;
@@ -69,6 +74,7 @@ void expect_around_alike(SimulationDefinition (*of)(mpm::Precision)) {
 
 TEST(GpuPeriodic, BlockGoesAround) { expect_around_alike(flying_block); }
 TEST(GpuPeriodic, LayerGoesAround) { expect_around_alike(flowing_layer); }
+TEST(GpuPeriodic, LayerGoesAroundWithMeanStresses) { expect_around_alike(flowing_with_mean_stresses); }
 TEST(GpuPeriodic, LayerGoesAroundWithCubicSplines) { expect_around_alike(flowing_with_cubic_splines); }
 
 }  // namespace gpu_periodic_test

@@ -21,6 +21,7 @@ ParticleSet without_particles(const ParticleSet& set) {
   empty.x.resize(set.x.size());
   empty.v.assign(set.v.size(), ParticleScalar(set.precision));
   empty.f.assign(set.f.size(), ParticleScalar(set.precision));
+  empty.surface.assign(set.surface.size(), ParticleScalar(set.precision));
   empty.history.assign(set.history.size(), ParticleScalar(set.precision));
   return empty;
 }

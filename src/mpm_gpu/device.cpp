@@ -18,15 +18,17 @@ using mpm::Vec3;
 template <class T>
 class RunDevice final : public mpm::Device {
  public:
-  RunDevice(const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
+  RunDevice(const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets, mpm::RunModules modules,
+            Executor executor)
       : definition_(definition),
+        modules_(modules),
         layout_(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max),
         executor_(executor) {
     begin(sets);
   }
 
-  void step(double dt) override {
-    told([&] { run_->solver().step(dt); });
+  void step(double start, double dt) override {
+    told([&] { run_->solver().step(dt, start); });
   }
   void make_room() override {
     told([&] { run_->solver().make_room(); });
@@ -50,6 +52,11 @@ class RunDevice final : public mpm::Device {
     before = now;
     return given;
   }
+  void tell_modules() override {
+    told([&] {
+      for (const auto& stage : run_->solver().stages()) stage->tell_modules();
+    });
+  }
   void fetch(std::vector<ParticleSet>& sets) const override {
     told([&] { run_->write_to(sets); });
   }
@@ -60,7 +67,7 @@ class RunDevice final : public mpm::Device {
  private:
   void begin(const std::vector<ParticleSet>& sets) {
     run_.reset();  // before the next one takes memory
-    run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
+    run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_, &modules_);
     told_ = {};
   }
   Vec3 in_world(const std::array<double, 3>& along) const {
@@ -79,6 +86,7 @@ class RunDevice final : public mpm::Device {
   }
 
   const mpm::SimulationDefinition& definition_;  ///< the simulation's own
+  mpm::RunModules modules_;
   mpm::GridLayout layout_;
   Executor executor_;
   std::unique_ptr<DeviceRun<T>> run_;
@@ -94,9 +102,10 @@ mpm::DeviceMaker device_by(Executor executor) {
     if (feature.empty()) feature = refused_in_a_run(definition);
     return feature.empty() ? "" : refusal(feature);
   };
-  maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets) {
+  maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets,
+                          mpm::RunModules modules) {
     return mpm::with_precision(definition.method.precision, [&](auto zero) -> std::unique_ptr<mpm::Device> {
-      return std::make_unique<RunDevice<decltype(zero)>>(definition, sets, executor);
+      return std::make_unique<RunDevice<decltype(zero)>>(definition, sets, modules, executor);
     });
   };
   return maker;

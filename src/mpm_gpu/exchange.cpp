@@ -8,6 +8,8 @@
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/rules/method_rules.hpp"
+#include "mpm_gpu/loads.hpp"
+#include "mpm_gpu/stages.hpp"
 
 namespace mpm_gpu {
 namespace {
@@ -38,6 +40,17 @@ bool several_fields(const SimulationDefinition& d) {
 bool cut_places(const SimulationDefinition& d) {
   return std::any_of(d.bodies.begin(), d.bodies.end(),
                      [](const auto& body) { return !body.parts.empty() || !body.surfaces.empty(); });
+}
+
+bool damping_of_place(const mpm::DampingDefinition& damping) {
+  return damping.grid.uses_place() || damping.particle.uses_place() || damping.pic.uses_place();
+}
+
+bool load_of_place(const SimulationDefinition& d) {
+  const auto of_force = [](const auto& load) { return !can_load(load.force); };
+  const auto of_body = [](const auto& load) { return !can_load(load.acceleration); };
+  return std::any_of(d.body_forces.begin(), d.body_forces.end(), of_body) ||
+         std::any_of(d.particle_forces.begin(), d.particle_forces.end(), of_force);
 }
 
 Face face_of(mpm::WallKind kind) {
@@ -106,6 +119,9 @@ Method method_of(const SimulationDefinition& d) {
     method.order = transfer.order;
     method.from_start = transfer.kind == mpm::TransferKind::xpic;
   }
+  method.mixes = transfer.mixes();
+  method.from_start = method.from_start || method.mixes;
+  method.counting = counting_of(d.method);
   method.terms = d.method.gradient_terms;
   return method;
 }
@@ -222,14 +238,12 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
 
 std::string refused(const SimulationDefinition& d) {
   const bool solid = d.geometry == mpm::GeometryKind::solid, plane = d.geometry == mpm::GeometryKind::plane_strain;
-  const mpm::Transfer& transfer = d.method.transfer;
   const Feature features[] = {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
       {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
       {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
       {d.method.average_dilatation, "method.average_dilatation"},
-      {d.method.damping.any(), "method.damping"},
+      {damping_of_place(d.method.damping), "method.damping as a function of place"},
       {any_user_law(d), "a law of a user's program"},
       {several_fields(d), "contact of deformable bodies"},
       {cut_places(d), "a body with a curved surface that cuts particles"},
@@ -237,8 +251,12 @@ std::string refused(const SimulationDefinition& d) {
       {any_wall(d,
                 [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing || kind == mpm::WallKind::periodic; }),
        "an absorbing or periodic face"},
-      {!d.conditions.empty(), "a prescribed velocity"},
-      {!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty(), "a load other than gravity"},
+      {!d.conditions.empty() && any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }),
+       "a prescribed velocity beside a frictional wall"},
+      {std::any_of(d.tractions.begin(), d.tractions.end(),
+                   [&](const auto& traction) { return !can_act(traction, d.method.shape); }),
+       "a traction that follows a face, is a function of place, or is with another shape function than ugimp"},
+      {load_of_place(d), "a load that is a function of the present place, or of time and the place at the start"},
       {d.sleep.has_value(), "sleep"},
       {d.bed.has_value(), "a bed that follows bodies"},
       {!d.transport.quantities.empty(), "transport"},
@@ -263,7 +281,8 @@ std::string refused_in_a_run(const SimulationDefinition& d) {
 }
 
 template <class T>
-DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
+DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor,
+                        const mpm::RunModules* modules)
     : laws_(laws_of(definition, sets)),
       solver_(
           [&] {
@@ -272,7 +291,9 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
             return view;
           }(),
           dimensions(definition.geometry), method_of(definition), views_of(sets), pointers_to<T>(laws_),
-          store_of<T>(sets), executor) {}
+          store_of<T>(sets), executor) {
+  add_stages(solver_, definition, sets, modules);
+}
 
 template <class T>
 void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets) const {

@@ -64,7 +64,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
                                      &step_implicit};  // in the order of UpdateScheme
   if (device) {
     device_ahead = true;
-    device->step(dt);
+    device->step(start, dt);
   } else {
     kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   }
@@ -119,10 +119,11 @@ void Simulation::State::begin_modules() {
 
 void Simulation::State::hand_to_device(const DeviceMaker& maker) {
   begin_modules();
-  device = maker.make(definition, sets);
+  device = maker.make(definition, sets, {*mechanics, modules});
 }
 
 void Simulation::State::tell_modules() {
+  device->tell_modules();
   for (Module* module : modules.list()) {
     if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
   }

@@ -9,6 +9,7 @@
 #include "mpm/grid/grid_layout.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/step/device.hpp"
 #include "mpm_gpu/solver.hpp"
 
 namespace mpm_gpu {
@@ -25,9 +26,9 @@ template <class T>
 class DeviceRun {
  public:
   /// `sets`: of an assembled Simulation of this definition, of precision T; every set has the name of its body.
-  /// @throws GpuError for what is refused
+  /// `modules`: those of a simulation whose steps this takes, which outlive it. @throws GpuError for what is refused
   DeviceRun(const mpm::SimulationDefinition& definition, const std::vector<mpm::ParticleSet>& sets,
-            Executor executor = Executor());
+            Executor executor = Executor(), const mpm::RunModules* modules = nullptr);
 
   Solver<T>& solver() { return solver_; }
   /// Writes the particles' numbers back, each to where its id lies. They have moved: the simulation has to sort them.

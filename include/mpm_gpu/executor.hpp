@@ -31,8 +31,14 @@ class Executor : public Backend {
   /// Sum of number(i) over all i, in one fixed order. `partial`: room for a sum of each group, groups_of(count).
   template <class Sum, class Number>
   Sum reduce(const char* name, long count, const Number& number, Buffer<Sum>& partial) {
+    if (count == 0) return Sum{};
+    reduce_there(name, count, number, partial);
+    return partial.get(0);
+  }
+  /// The same of at least one number; the sum stays there, at partial's first place, and nobody waits for it.
+  template <class Sum, class Number>
+  void reduce_there(const char* name, long count, const Number& number, Buffer<Sum>& partial) {
     const long groups = groups_of(count);
-    if (groups == 0) return Sum{};
     Sum* sums = partial.data();
     for_each(name, groups, [=](long g) {
       Sum sum{};
@@ -48,7 +54,6 @@ class Executor : public Backend {
         sums[first] = sum;
       });
     }
-    return partial.get(0);
   }
   static long groups_of(long count) { return (count + kGroup - 1) / kGroup; }
 };

@@ -12,18 +12,18 @@
 #include <vector>
 
 #include "mpm/step/device.hpp"
-#include "mpm_gpu/between.hpp"
 #include "mpm_gpu/near_copies.hpp"
+#include "mpm_gpu/stage.hpp"
 
 namespace mpm_gpu {
 
 template <class T>
-class NearBodies final : public Between<T> {
+class NearBodies final : public Stage<T> {
  public:
   /// `contact` outlives this object.
   NearBodies(mpm::HostContact& contact, const GridView& grid);
 
-  const std::uint8_t* begin_step(Executor& run, const StepView<T>& step, long sorts) override;
+  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
   void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
 
  private:

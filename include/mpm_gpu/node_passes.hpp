@@ -45,7 +45,8 @@ struct MomentumKernel {
   }
 };
 
-template <class T, class Geometry, template <class> class ShapeClass>
+/// `Driven`: with NodeView::load and damping of the nodes.
+template <class T, class Geometry, template <class> class ShapeClass, bool Driven = false>
 struct ForceKernel {
   static constexpr int kDim = Geometry::kDim;
   StepView<T> step;
@@ -73,6 +74,11 @@ struct ForceKernel {
       each_particle_of<T, kDim, ShapeClass>(step, node, number, add);
     }
     const bool carries = mass > step.grid.least_mass;
+    for (int c = 0; Driven && c < kDim; ++c) {
+      const long at = c * to.nodes + node;
+      force[c] -= step.settings.node_damping * to.momentum[at];
+      if (to.load != nullptr) force[c] += to.load[at];
+    }
     double acceleration[kDim], free[kDim], velocity[kDim];
     for (int c = 0; c < kDim; ++c) {
       acceleration[c] = carries ? force[c] / mass + step.grid.gravity[c] : 0.0;
@@ -92,7 +98,7 @@ struct ForceKernel {
 
 /// The velocity of which increments are found: of the step's start (XPIC), in which a wall's nodes rest, or of its end
 /// (FMPM). Source: method reference 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist (2021).
-template <class T, int Dim>
+template <class T, int Dim, bool Mixed = false>
 struct FirstIncrementKernel {
   StepView<T> step;
 
@@ -109,12 +115,14 @@ struct FirstIncrementKernel {
     }
     hold_increment<Dim>(step.grid, to, node, number, first);
     for (int c = 0; c < Dim; ++c) to.increment[c * to.nodes + node] = first[c];
+    if (Mixed) to.work[node] = 0.0;
   }
 };
 
 /// The next increment, dv - S+ S dv: what particles have of the one before it, gathered, is taken from that. Walls hold
-/// theirs.
-template <class T, int Dim, template <class> class ShapeClass>
+/// theirs. `Mixed`: particles take over a part of the first and of those after it, as they gain an acceleration; its
+/// work is as mechanics/increments.hpp has it.
+template <class T, int Dim, template <class> class ShapeClass, bool Mixed = false>
 struct IncrementKernel {
   StepView<T> step;
 
@@ -132,16 +140,22 @@ struct IncrementKernel {
                                            for (int c = 0; c < Dim; ++c)
                                              momentum[c] += (part * W::load(step.particles.gradient[c] + p)).v;
                                          });
-    double free[Dim], next[Dim];
+    double free[Dim], next[Dim], work = 0.0;
+    const double dt = step.settings.dt;
     for (int c = 0; c < Dim; ++c) {
-      free[c] = to.increment[c * to.nodes + node] - momentum[c] / mass;
+      const long at = c * to.nodes + node;
+      free[c] = to.increment[at] - momentum[c] / mass;
+      if (Mixed) free[c] *= step.settings.part;
+      if (Mixed) work += mass * free[c] * (to.velocity[at] - 0.5 * dt * to.acceleration[at]);
       next[c] = free[c];
     }
+    if (Mixed) to.work[node] += work;
     hold_increment<Dim>(step.grid, to, node, number, next);
     for (int c = 0; c < Dim; ++c) {
       const long at = c * to.nodes + node;
       to.increment[at] = next[c];
       to.velocity[at] += next[c];
+      if (Mixed) to.acceleration[at] += next[c] / dt;
       to.held[at] += mass * (next[c] - free[c]);
     }
   }

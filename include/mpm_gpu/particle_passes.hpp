@@ -4,6 +4,7 @@
 
 #include "mpm/kernel/advance.hpp"
 #include "mpm_gpu/stencil.hpp"
+#include "mpm_gpu/taken.hpp"
 
 namespace mpm_gpu {
 
@@ -77,8 +78,9 @@ struct IncrementToParticlesKernel {
 };
 
 /// `Kind`: the particle's velocity gains the grid's acceleration, or becomes the grid's, with its first moment B or
-/// not.
-template <class T, int Dim, template <class> class ShapeClass, mpm_kernel::Motion Kind>
+/// not. `Counts`: what PIC takes is kept, or that and damping, which acts then.
+template <class T, int Dim, template <class> class ShapeClass, mpm_kernel::Motion Kind,
+          Counting Counts = Counting::nothing>
 struct MoveKernel {
   StepView<T> step;
   SetView set;
@@ -100,13 +102,19 @@ struct MoveKernel {
       }
     });
     for (int c = 0; kAffine && c < Dim * Dim; ++c) b[c / Dim][c % Dim].store(step.particles.affine[c] + p);
-    const mpm_kernel::SetView<T> view = solver_view(step.particles, set, Dim);
+    mpm_kernel::SetView<T> view = solver_view(step.particles, set, Dim);
+    view.mass = mass_of(step.particles, set, p).v;
+    constexpr bool kCounted = Counts != Counting::nothing, kDamped = Counts == Counting::damping;
     mpm_kernel::MoveSettings settings{step.settings.dt, step.settings.flip, false};
+    if (kDamped) {
+      settings.grid_damping = step.settings.grid_damping;
+      settings.particle_damping = step.settings.particle_damping;
+    }
     mpm::Advance<T, Dim, Kind, false, false> advance(view, settings);
     std::uint8_t fault = step.particles.fault[p];
     for (int c = 0; c < Dim; ++c) {
       const int before = nearest_node(in_cells(step.grid, c, step.particles.x[c][p]));
-      advance.template particles<false, false>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
+      advance.template particles<kCounted, kDamped>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
       const double cells = in_cells(step.grid, c, step.particles.next_x[c][p]);
       if (!(cells >= set.lowest[c] && cells <= set.highest[c])) {
         fault |= kOutside;
@@ -115,6 +123,25 @@ struct MoveKernel {
       }
     }
     step.particles.fault[p] = fault;
+    if constexpr (kCounted) {
+      mpm_kernel::Moved moved{};
+      advance.add_to(moved);
+      keep(moved, p);
+    }
+  }
+
+ private:
+  /// In the order of taken_by().
+  void keep(const mpm_kernel::Moved& moved, long p) const {
+    const long count = step.particles.count;
+    double* to = step.particles.taken + p;
+    to[0] = moved.slip_energy;
+    if constexpr (Counts == Counting::damping) {
+      to[count] = moved.drag_energy;
+      to[2 * count] = moved.grid_kinetic;
+      to[3 * count] = moved.particle_kinetic;
+      for (int c = 0; c < Dim; ++c) to[(4 + c) * count] = moved.drag[c];
+    }
   }
 };
 

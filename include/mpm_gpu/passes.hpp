@@ -7,6 +7,7 @@
 
 #include "mpm/kernel/kernels.hpp"
 #include "mpm_gpu/executor.hpp"
+#include "mpm_gpu/taken.hpp"
 #include "mpm_gpu/views.hpp"
 
 namespace mpm_gpu {
@@ -18,15 +19,31 @@ enum class Update : int { usf, usl, usavg };
 template <class T>
 struct Passes {
   using Pass = void (*)(Executor&, const StepView<T>&);
-  Pass domains;          ///< stretch of boxes for this step; null of a shape function that does not stretch
-  Pass momentum[2];      ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
-  Pass gradient;         ///< grad v of particles
-  Pass first_increment;  ///< velocity that XPIC and FMPM pass to and fro
-  Pass to_particles;     ///< increment at particles, in the place of gradients
-  Pass increment;        ///< the next one at nodes, from those, and the velocity with it
-  Pass force;            ///< a, and v of the step's end, by force, gravity and walls
-  Pass move[mpm_kernel::kMotions];  ///< v and next x of particles; what has left its cell or the domain
+  Pass domains;             ///< stretch of boxes for this step; null of a shape function that does not stretch
+  Pass momentum[2];         ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
+  Pass gradient;            ///< grad v of particles
+  Pass first_increment[2];  ///< velocity that XPIC and FMPM pass to and fro; where FLIP is mixed with it
+  Pass to_particles;        ///< increment at particles, in the place of gradients
+  Pass increment[2];  ///< the next one at nodes, from those, and the velocity with it; where FLIP is mixed with it
+  Pass force[2];      ///< a, and v of the step's end, by force, gravity and walls; and by what else drives nodes
+  /// v and next x of particles; what has left its cell or the domain. By motion and Counting.
+  Pass move[mpm_kernel::kMotions][3];
+
+  // Loads on particles: acceleration of these, in the place of gradients; their force at the nodes, by LoadSpread,
+  // added to what is there or not; that of tractions; power of both at each node.
+  void (*load_of_particles)(Executor&, const StepView<T>&, const LoadView&);
+  void (*load[2])(Executor&, const StepView<T>&, bool adds);
+  void (*traction)(Executor&, const StepView<T>&, const TractionView&, bool adds);
+  void (*load_power)(Executor&, const StepView<T>&, double* power);
+  /// Holds nodes at prescribed velocities.
+  void (*hold)(Executor&, const StepView<T>&, const HeldView&, HeldPart);
 };
+
+// The same for any shape function and precision (prescribed_passes.hpp).
+void find_held_work(Executor& run, const HeldView& held, double* work);
+void find_held_shares(Executor& run, const HeldView& held, const std::uint32_t* entry, const double* factor,
+                      double* share, long count);
+void copy_keys(Executor& run, const NodeView& nodes, std::uint64_t* to);
 
 /// Strain and stress of the particles of one set, by its law.
 template <class T>

@@ -9,23 +9,23 @@
 //   (increments)  v of nodes               <-  v and particles  XPIC, FMPM: to particles and back, an order at a time
 //   move          v, x of particles         <-  v, a            a gather by particles
 //
-// Contact with rigid bodies acts between the passes (between.hpp), where the solver's stages do.
-//
 // Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
 // start: particles move to other places, which become theirs at the end. USAVG does half of the strain at each time.
+// Stages that a scene needs beside these (stage.hpp) act between the passes.
 //
 // Nothing is allocated in a step after make_room(), which is called between sync periods.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "mpm_gpu/between.hpp"
 #include "mpm_gpu/cells.hpp"
 #include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/passes.hpp"
 #include "mpm_gpu/put_around.hpp"
+#include "mpm_gpu/stage.hpp"
 
 namespace mpm_gpu {
 
@@ -68,6 +68,8 @@ struct Method {
   bool from_start = false;                             ///< XPIC: increments are of the velocity at the step's start
   double flip = 1.0;                                   ///< fraction of FLIP; the rest is PIC
   int terms = 1;                                       ///< number of terms of exp(grad v dt)
+  bool mixes = false;                     ///< FLIP is mixed with XPIC of a higher order than PIC's (mixture.hpp)
+  Counting counting = Counting::nothing;  ///< numbers that are kept of what particles lose in their update
 };
 
 /// Impulses on the material since the start [N s], along the grid's axes.
@@ -104,10 +106,14 @@ class Solver {
 
   /// Fits the memory to where the particles are; between sync periods.
   void make_room();
-  /// Makes a step of `dt` [s]. `between`: what acts on nodes between the passes, else null.
-  /// @throws GpuError naming a particle that has failed; nothing can be stepped after that
-  void step(double dt, Between<T>* between = nullptr);
+  /// Makes a step of `dt` [s] that begins at `start` [s], for stages that depend on time. @throws GpuError naming a
+  /// particle that has failed; nothing can be stepped after that
+  void step(double dt, double start = 0.0);
 
+  /// Lets a stage act in the steps from here on.
+  void add(std::unique_ptr<Stage<T>> stage);
+  const std::vector<std::unique_ptr<Stage<T>>>& stages() const { return stages_; }
+  const Passes<T>& passes() const { return *passes_; }
   const ParticleStore<T>& particles() const { return store_; }
   const GridView& grid() const { return grid_; }
   const std::vector<SetView>& sets() const { return sets_; }
@@ -136,11 +142,17 @@ class Solver {
   void average(const StepView<T>& now);
   void momentum(const StepView<T>& now) { passes_->momentum[method_.motion == mpm_kernel::kAffine](run_, now); }
   StepView<T> view(double dt);
+  /// Lets the stages act at a hook.
+  void act(mpm::Hook hook, const StepView<T>& now) {
+    for (auto& stage : stages_) stage->act(hook, run_, now);
+  }
   /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
   void strain(StepView<T> now, double dt);
   /// Adds the increments of XPIC and FMPM to the velocity of the nodes.
-  void filter(const StepView<T>& now, Between<T>* between);
-  void check();
+  void filter(StepView<T> now);
+  /// Returns what is kept of what particles lose in their update in this step.
+  Counting counting(const StepSettings& settings) const;
+  void check(const StepView<T>& now, double start);
   void account(double dt);
   std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
 
@@ -161,7 +173,9 @@ class Solver {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
+    Taken taken;
     constexpr OfParticles& operator+=(const OfParticles& other) {
+      taken += other.taken;
       left = left || other.left;
       outside = outside < other.outside ? outside : other.outside;
       inverted = inverted < other.inverted ? inverted : other.inverted;
@@ -199,6 +213,7 @@ class Solver {
   std::array<Buffer<T>, 3> domain_;  ///< empty of a shape function that does not stretch
   Buffer<std::uint32_t> node_, id_room_;
   Buffer<std::uint8_t> fault_;
+  Buffer<double> taken_;  ///< empty where nothing is counted
   Buffer<double> place_room_;
   Buffer<T> room_;
   Buffer<double> mass_, nodal_[4];
@@ -208,6 +223,7 @@ class Solver {
   Buffer<Totals> of_totals_;
   Buffer<Faster> of_faster_;
   Impulses impulses_;
+  std::vector<std::unique_ptr<Stage<T>>> stages_;
   bool must_sort_ = true;
   long steps_ = 0, sorts_ = 0;
 };

@@ -93,9 +93,10 @@ struct ParticleView {
   T* domain[3];           ///< stretch of the shape function's box, of the step's start; of one that has it
   std::uint32_t* node;    ///< number of the nearest node in the table
   std::uint8_t* fault;    ///< bits of Fault, in this step
-  std::uint32_t* id;      ///< as in the solver
-  const T* mass;          ///< null where all of each set have the same [kg]
-  const T* surface;       ///< ParticleSet::surface; null without cut places
+  const std::uint32_t* id;
+  const T* mass;     ///< null where all of each set have the same [kg]
+  const T* surface;  ///< ParticleSet::surface; null without cut places
+  double* taken;     ///< [number][particle], what its update took in this step (taken.hpp); null where nobody asks
 };
 
 /// Findings of a kernel about a particle.
@@ -134,19 +135,56 @@ struct NodeView {
   double* velocity;            ///< [m/s]
   double* acceleration;        ///< [m/s^2]
   std::uint8_t* hold;          ///< [face][node], how frictional walls hold (walls.hpp); null if there are none
+  double* increment;           ///< increment of XPIC or FMPM that is at work [m/s]
+  double* held;                ///< impulse that walls give in a step [N s]
+  double* load;                ///< forces beside the internal ones; null without any [N]
+  double* work;                ///< work of increments that FLIP is mixed with; null without them [J]
   /// 1 at nodes near rigid bodies, where frictional walls act after contact; null where none is marked.
   const std::uint8_t* near;
-  double* increment;  ///< increment of XPIC or FMPM that is at work [m/s]
-  double* held;       ///< impulse that walls give in a step [N s]
 };
 
 struct StepSettings {
-  double dt;         ///< [s]
-  double strain_dt;  ///< time of one update of strain: half of dt where there are two [s]
-  double flip;       ///< fraction of FLIP; the rest is PIC
-  bool from_start;   ///< XPIC: increments are of the velocity at the step's start
-  int terms;         ///< number of terms of exp(grad v strain_dt)
+  double dt;                ///< [s]
+  double strain_dt;         ///< time of one update of strain: half of dt where there are two [s]
+  double flip;              ///< fraction of FLIP; the rest is PIC
+  bool from_start;          ///< XPIC: increments are of the velocity at the step's start
+  int terms;                ///< number of terms of exp(grad v strain_dt)
+  int increments;           ///< number of increments of XPIC or FMPM
+  double part;              ///< part of the next increment that particles take over, where XPIC is mixed with FLIP
+  bool driven;              ///< forces act on the nodes beside the internal ones and gravity
+  double node_damping;      ///< rate of a force on the nodes, which is one of these [1/s]
+  bool damped;              ///< damping acts in the particles' update, or its energies are asked for
+  double grid_damping;      ///< rate there on the grid's velocity at the particle [1/s]
+  double particle_damping;  ///< and on its own [1/s]
 };
+
+/// Loads on particles (loads.hpp).
+struct LoadView {
+  long count, ids;            ///< number of loads whose value is the same wherever they act, and of particles
+  const std::uint32_t* acts;  ///< by id: bit t if load t of these acts on the particle
+  const double* value;        ///< [load][axis], in this step [m/s^2]
+  const double* fixed;        ///< [axis][id], of loads that differ from particle to particle; null without any [m/s^2]
+};
+
+/// Tractions on faces of particles' boxes (tractions.hpp).
+struct TractionView {
+  long count;
+  const std::uint32_t* acts;  ///< by id: bit t if traction t acts on the particle
+  const int* face;            ///< face of each, 2 * axis, + 1 for the upper one
+  const double* force;        ///< [traction][axis], on the face of a particle in this step [N]
+};
+
+/// Nodes at which velocities are prescribed (prescribed.hpp). Entries of a node follow each other, and are orthogonal.
+struct HeldView {
+  long nodes, entries;
+  const std::uint32_t* node;   ///< numbers in the table
+  const std::uint32_t* first;  ///< first entry of each, and one past the last
+  const double* direction;     ///< [entry][axis], unit vectors
+  const double *start, *end;   ///< [entry], velocity along it as the step begins and ends [m/s]
+  double* given;               ///< [entry], impulse along it in this step [N s]
+};
+/// Velocity that is to be held there.
+enum class HeldPart : int { strain_at_start, strain_at_end, motion, first_increment, increment };
 
 template <class T>
 struct StepView {

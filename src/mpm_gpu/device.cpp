@@ -7,7 +7,6 @@
 
 #include "mpm/modules/with_precision.hpp"
 #include "mpm_gpu/exchange.hpp"
-#include "mpm_gpu/near_bodies.hpp"
 
 namespace mpm_gpu {
 namespace {
@@ -19,18 +18,17 @@ using mpm::Vec3;
 template <class T>
 class RunDevice final : public mpm::Device {
  public:
-  RunDevice(const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
+  RunDevice(const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets, mpm::RunModules modules,
+            Executor executor)
       : definition_(definition),
+        modules_(modules),
         layout_(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max),
         executor_(executor) {
     begin(sets);
   }
 
-  void step(double dt, mpm::HostContact* contact) override {
-    told([&] {
-      if (contact != nullptr && !near_) near_ = std::make_unique<NearBodies<T>>(*contact, run_->solver().grid());
-      run_->solver().step(dt, near_.get());
-    });
+  void step(double start, double dt) override {
+    told([&] { run_->solver().step(dt, start); });
   }
   void make_room() override {
     told([&] { run_->solver().make_room(); });
@@ -61,6 +59,11 @@ class RunDevice final : public mpm::Device {
     carried_before_ = now;
     return in_world(since);
   }
+  void tell_modules() override {
+    told([&] {
+      for (const auto& stage : run_->solver().stages()) stage->tell_modules();
+    });
+  }
   Sums sums(int set) override {
     Sums sums;
     told([&] {
@@ -81,8 +84,7 @@ class RunDevice final : public mpm::Device {
  private:
   void begin(const std::vector<ParticleSet>& sets) {
     run_.reset();  // before the next one takes memory
-    run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
-    near_.reset();
+    run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_, &modules_);
     told_ = {};
     carried_before_ = {};
   }
@@ -102,10 +104,10 @@ class RunDevice final : public mpm::Device {
   }
 
   const mpm::SimulationDefinition& definition_;  ///< the simulation's own
+  mpm::RunModules modules_;
   mpm::GridLayout layout_;
   Executor executor_;
   std::unique_ptr<DeviceRun<T>> run_;
-  std::unique_ptr<NearBodies<T>> near_;  ///< null before the first step, and without rigid bodies
   std::array<Impulses::OfFace, 6> told_{};
   std::array<double, 3> carried_before_{};  ///< PutAround::carried() when last taken [kg m]
 };
@@ -119,9 +121,10 @@ mpm::DeviceMaker device_by(Executor executor) {
     if (feature.empty()) feature = refused_in_a_run(definition);
     return feature.empty() ? "" : refusal(feature);
   };
-  maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets) {
+  maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets,
+                          mpm::RunModules modules) {
     return mpm::with_precision(definition.method.precision, [&](auto zero) -> std::unique_ptr<mpm::Device> {
-      return std::make_unique<RunDevice<decltype(zero)>>(definition, sets, executor);
+      return std::make_unique<RunDevice<decltype(zero)>>(definition, sets, modules, executor);
     });
   };
   return maker;

@@ -9,6 +9,8 @@
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/rules/method_rules.hpp"
+#include "mpm_gpu/loads.hpp"
+#include "mpm_gpu/stages.hpp"
 
 namespace mpm_gpu {
 namespace {
@@ -38,6 +40,23 @@ bool any_tool(const SimulationDefinition& d, bool (*is)(const mpm::RigidBodyDefi
 }
 bool several_fields(const SimulationDefinition& d) {
   return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
+}
+
+bool cut_places(const SimulationDefinition& d) {
+  return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return !body.parts.empty(); });
+}
+bool any_load(const SimulationDefinition& d) {
+  return !d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty();
+}
+bool damping_of_place(const mpm::DampingDefinition& damping) {
+  return damping.grid.uses_place() || damping.particle.uses_place() || damping.pic.uses_place();
+}
+
+bool load_of_place(const SimulationDefinition& d) {
+  const auto of_force = [](const auto& load) { return !can_load(load.force); };
+  const auto of_body = [](const auto& load) { return !can_load(load.acceleration); };
+  return std::any_of(d.body_forces.begin(), d.body_forces.end(), of_body) ||
+         std::any_of(d.particle_forces.begin(), d.particle_forces.end(), of_force);
 }
 
 Face face_of(mpm::WallKind kind) {
@@ -108,6 +127,9 @@ Method method_of(const SimulationDefinition& d) {
     method.order = transfer.order;
     method.from_start = transfer.kind == mpm::TransferKind::xpic;
   }
+  method.mixes = transfer.mixes();
+  method.from_start = method.from_start || method.mixes;
+  method.counting = counting_of(d.method);
   method.terms = d.method.gradient_terms;
   return method;
 }
@@ -235,14 +257,12 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
 
 std::string refused(const SimulationDefinition& d) {
   const bool solid = d.geometry == mpm::GeometryKind::solid, plane = d.geometry == mpm::GeometryKind::plane_strain;
-  const mpm::Transfer& transfer = d.method.transfer;
   const Feature features[] = {
       {!solid && !plane, "this geometry (other than solid and plane_strain)"},
       {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
       {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
       {d.method.average_dilatation, "method.average_dilatation"},
-      {d.method.damping.any(), "method.damping"},
+      {damping_of_place(d.method.damping), "method.damping as a function of place"},
       {any_user_law(d), "a law of a user's program"},
       {several_fields(d), "contact of deformable bodies"},
       {any_tool(d, [](const mpm::RigidBodyDefinition& body, const SimulationDefinition&) { return body.particles; }),
@@ -252,9 +272,16 @@ std::string refused(const SimulationDefinition& d) {
                   return has_sides(body, scene.geometry, scene.smallest_cell());
                 }),
        "a thin tool, whose sides have velocity fields of their own"},
+      {!d.conditions.empty() && (!d.rigid_bodies.empty() || !d.robots.empty()),
+       "a prescribed velocity beside a rigid body"},
       {any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing; }), "an absorbing face"},
-      {!d.conditions.empty(), "a prescribed velocity"},
-      {!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty(), "a load other than gravity"},
+      {!d.conditions.empty() && any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }),
+       "a prescribed velocity beside a frictional wall"},
+      {std::any_of(d.tractions.begin(), d.tractions.end(),
+                   [&](const auto& traction) { return !can_act(traction, d.method.shape); }),
+       "a traction that follows a face, is a function of place, or is with another shape function than ugimp"},
+      {any_load(d) && cut_places(d), "a load beside a body whose surface cuts particles"},
+      {load_of_place(d), "a load that is a function of the present place, or of time and the place at the start"},
       {d.sleep.has_value(), "sleep"},
       {d.bed.has_value(), "a bed that follows bodies"},
       {!d.transport.quantities.empty(), "transport"},
@@ -279,7 +306,8 @@ std::string refused_in_a_run(const SimulationDefinition& d) {
 }
 
 template <class T>
-DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor)
+DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vector<ParticleSet>& sets, Executor executor,
+                        const mpm::RunModules* modules)
     : layout_(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max),
       laws_(laws_of(definition, sets)),
       solver_(
@@ -289,7 +317,9 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
             return view;
           }(),
           dimensions(definition.geometry), method_of(definition), views_of(sets), pointers_to<T>(laws_),
-          store_of<T>(sets), executor) {}
+          store_of<T>(sets), executor) {
+  add_stages(solver_, definition, sets, modules);
+}
 
 template <class T>
 void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, bool all) {

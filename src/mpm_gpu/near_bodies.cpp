@@ -47,7 +47,7 @@ void NearBodies<T>::choose() {
 }
 
 template <class T>
-const std::uint8_t* NearBodies<T>::begin_step(Executor& run, const StepView<T>& step, long sorts) {
+void NearBodies<T>::begin_step(Executor& run, StepView<T>& step, double, long sorts) {
   const bool sorted = sorts != sorts_;
   if (sorted) copies_.download_keys(run, step.nodes, keys_);
   choose();
@@ -56,7 +56,7 @@ const std::uint8_t* NearBodies<T>::begin_step(Executor& run, const StepView<T>& 
     take(run, step);
   }
   sorts_ = sorts;
-  return rubs_ ? copies_.marks() : nullptr;
+  if (rubs_) step.nodes.near = copies_.marks();
 }
 
 template <class T>

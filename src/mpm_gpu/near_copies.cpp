@@ -188,6 +188,8 @@ template <int Dim>
 void NearCopies<T>::take_increment(Executor& run, const StepView<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
+  const bool mixed = nodes.work != nullptr;  // particles take this over as they gain an acceleration
+  const double dt = step.settings.dt;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
     double given[Dim];
     for (int c = 0; c < Dim; ++c) given[c] = v[c];
@@ -196,6 +198,7 @@ void NearCopies<T>::take_increment(Executor& run, const StepView<T>& step) {
       const long to = c * nodes.nodes + node;
       nodes.held[to] += nodes.mass[node] * (v[c] - given[c]);
       nodes.velocity[to] += v[c] - nodes.increment[to];
+      if (mixed) nodes.acceleration[to] += (v[c] - nodes.increment[to]) / dt;
       nodes.increment[to] = v[c];
     }
   });

@@ -28,7 +28,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
       sets_(std::move(sets)),
       store_(std::move(particles)),
       run_(executor),
-      passes_(&passes(dim, method.shape, T())),
+      passes_(&mpm_gpu::passes(dim, method.shape, T())),
       cells_(grid, dim),
       holds_(dim, rubs(grid, dim) ? 2 * dim : 0),
       around_(grid, dim) {
@@ -52,6 +52,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   node_.fit(count_);
   id_room_.fit(count_);
   fault_.fit(count_);
+  taken_.fit(count_ * taken_numbers(method.counting, dim));
   place_room_.fit(count_);
   room_.fit(count_);
   of_particles_.fit(Executor::groups_of(count_));
@@ -67,9 +68,16 @@ void Solver<T>::make_room() {
   holds_.make_room(run_, cells_.room());
   mass_.fit(cells_.room());
   for (Buffer<double>& field : nodal_) field.fit(cells_.room() * dim_);
-  if (method_.order > 1) increment_.fit(cells_.room() * dim_);
+  if (method_.order > 1 || method_.mixes) increment_.fit(cells_.room() * dim_);
   of_nodes_.fit(Executor::groups_of(cells_.room()));
+  for (auto& stage : stages_) stage->make_room(run_, cells_.room());
   must_sort_ = true;  // the table may have moved
+}
+
+template <class T>
+void Solver<T>::add(std::unique_ptr<Stage<T>> stage) {
+  stage->make_room(run_, cells_.room());
+  stages_.push_back(std::move(stage));
 }
 
 template <class T>
@@ -129,6 +137,7 @@ StepView<T> Solver<T>::view(double dt) {
   particles.id = store_.id.data();
   particles.mass = store_.mass.data();
   particles.surface = store_.surface.data();
+  particles.taken = taken_.data();
   view.nodes = cells_.view();
   view.nodes.mass = mass_.data();
   view.nodes.momentum = nodal_[0].data();
@@ -140,44 +149,54 @@ StepView<T> Solver<T>::view(double dt) {
   view.sets = sets_.data();
   view.sets_there = sets_there_.data();
   view.set_count = static_cast<int>(sets_.size());
-  view.settings = {dt, dt, method_.flip, method_.from_start, method_.terms};
+  view.settings.dt = view.settings.strain_dt = dt;
+  view.settings.flip = method_.flip;
+  view.settings.from_start = method_.from_start;
+  view.settings.terms = method_.terms;
+  view.settings.increments = method_.order - 1;
+  view.settings.part = 1.0;
   return view;
 }
 
 template <class T>
-void Solver<T>::step(double dt, Between<T>* between) {
+void Solver<T>::step(double dt, double start) {
   if (must_sort_) sort();
   StepView<T> now = view(dt);
-  if (between != nullptr) now.nodes.near = between->begin_step(run_, now, sorts_);
-  const auto act = [&](mpm::Hook hook) {
-    if (between != nullptr) between->act(hook, run_, now);
-  };
+  for (auto& stage : stages_) stage->begin_step(run_, now, start, sorts_);
   const bool halves = method_.update == Update::usavg;
   if (passes_->domains != nullptr) passes_->domains(run_, now);
   momentum(now);
-  act(mpm::Hook::momentum_gathered);
   average(now);
+  act(mpm::Hook::momentum_gathered, now);
   if (method_.update != Update::usl) {
-    act(mpm::Hook::before_strain);
+    act(mpm::Hook::before_strain, now);
     strain(now, halves ? 0.5 * dt : dt);
   }
-  passes_->force(run_, now);
-  act(mpm::Hook::momentum_updated);
-  filter(now, between);
-  act(mpm::Hook::grid_advanced);
-  passes_->move[method_.motion](run_, now);
+  act(mpm::Hook::forces_gathered, now);
+  passes_->force[now.settings.driven](run_, now);
+  act(mpm::Hook::momentum_updated, now);
+  filter(now);
+  act(mpm::Hook::grid_advanced, now);
+  passes_->move[method_.motion][static_cast<int>(counting(now.settings))](run_, now);
   if (method_.update != Update::usf) {
     momentum(now);
-    act(mpm::Hook::before_strain);
+    act(mpm::Hook::before_strain, now);
     strain(now, halves ? 0.5 * dt : dt);
     for (int k = 0; k < dim_; ++k) store_.x[k].swap(next_x_[k]);
   }
   account(dt);
   ++steps_;
-  check();
+  check(now, start);
   if (must_sort_ && around_.any()) {
     around_.put(run_, {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.mass.data(), sets_);
   }
+}
+
+template <class T>
+Counting Solver<T>::counting(const StepSettings& settings) const {
+  if (settings.damped) return Counting::damping;
+  const bool slips = method_.motion == mpm_kernel::kIncrement && settings.flip != 1.0;
+  return slips && method_.counting != Counting::nothing ? Counting::slip : Counting::nothing;
 }
 
 template <class T>
@@ -196,17 +215,15 @@ void Solver<T>::strain(StepView<T> now, double dt) {
 }
 
 template <class T>
-void Solver<T>::filter(const StepView<T>& now, Between<T>* between) {
-  if (method_.order < 2) return;
-  const auto act = [&](mpm::Hook hook) {
-    if (between != nullptr) between->act(hook, run_, now);
-  };
-  passes_->first_increment(run_, now);
-  act(mpm::Hook::velocity_found);
-  for (int n = 1; n < method_.order; ++n) {
+void Solver<T>::filter(StepView<T> now) {
+  if (now.settings.increments == 0) return;
+  passes_->first_increment[method_.mixes](run_, now);
+  act(mpm::Hook::velocity_found, now);
+  for (int n = 0; n < now.settings.increments; ++n) {
     passes_->to_particles(run_, now);
-    passes_->increment(run_, now);
-    act(mpm::Hook::increment_found);
+    passes_->increment[method_.mixes](run_, now);
+    act(mpm::Hook::increment_found, now);
+    now.settings.part = 1.0;  // the next one is found from that part
   }
 }
 
@@ -244,8 +261,12 @@ void Solver<T>::account(double dt) {
 }
 
 template <class T>
-void Solver<T>::check() {
+void Solver<T>::check(const StepView<T>& now, double start) {
   const std::uint8_t* fault = fault_.data();
+  const double* taken = taken_.data();
+  const Counting counted = counting(now.settings);
+  const int dim = dim_;
+  const long count = count_;
   const OfParticles all = run_.reduce<OfParticles>(
       "gpu: checks", count_,
       [=](long i) {
@@ -253,6 +274,7 @@ void Solver<T>::check() {
         one.left = (fault[i] & kLeftCell) != 0;
         if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
         if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
+        one.taken = taken_by(taken, counted, dim, count, i);
         return one;
       },
       of_particles_);
@@ -265,6 +287,7 @@ void Solver<T>::check() {
   };
   if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
+  for (auto& stage : stages_) stage->end_step(run_, now, start, all.taken);
 }
 
 template <class T>
@@ -312,7 +335,8 @@ std::array<double, 3> Solver<T>::momentum() {
 
 template <class T>
 std::size_t Solver<T>::particle_bytes() {
-  std::size_t sum = node_.bytes() + id_room_.bytes() + fault_.bytes() + place_room_.bytes() + room_.bytes();
+  std::size_t sum =
+      node_.bytes() + id_room_.bytes() + fault_.bytes() + taken_.bytes() + place_room_.bytes() + room_.bytes();
   store_.each([&](const auto& buffer) { sum += buffer.bytes(); });
   for (const Buffer<T>& one : gradient_) sum += one.bytes();
   for (const Buffer<T>& one : domain_) sum += one.bytes();
@@ -325,6 +349,7 @@ std::size_t Solver<T>::bytes() {
   std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + mass_.bytes() +
                     increment_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
+  for (const auto& stage : stages_) sum += stage->bytes();
   return sum + of_totals_.bytes() + of_faster_.bytes();
 }
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "gpu_scenes.hpp"
+#include "gpu_method_scenes.hpp"
 
 namespace gpu_allocation_test {
 
@@ -33,7 +33,8 @@ void* counted(void* memory) {
 namespace gpu_allocation_test {
 
 TEST(GpuAllocation, NoneInAStepAfterTheFirst) {
-  for (const auto scene : {gpu_scenes::falling_block, gpu_scenes::column_apic, gpu_scenes::column_friction}) {
+  for (const auto scene : {gpu_scenes::falling_block, gpu_scenes::column_apic, gpu_scenes::column_friction,
+                           gpu_scenes::column_mixture, gpu_scenes::column_damped, gpu_scenes::block_loaded}) {
     const mpm::SimulationDefinition d = scene(mpm::Precision::float64);
     const double dt = gpu_scenes::step_of(d);
     mpm::SimulationProbe solver(d);

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <map>
 
-#include "gpu_scenes.hpp"
+#include "gpu_method_scenes.hpp"
 
 namespace gpu_step_test {
 
@@ -73,10 +73,12 @@ void expect_agreement(SceneOf scene, double bound) {
   const SimulationDefinition d = scene(kPrecision<T>);
   const double dt = gpu_scenes::step_of(d);
   mpm::SimulationProbe solver(d);
-  DeviceRun<T> run(d, solver.sets());
+  const mpm::RunModules modules = solver.modules();  // tractions are those of a simulation
+  DeviceRun<T> run(d, solver.sets(), Executor(), d.tractions.empty() ? nullptr : &modules);
   for (int i = 0; i < kSteps; ++i) {
+    const double start = solver.time();
     solver.step(dt);
-    run.solver().step(dt);
+    run.solver().step(dt, start);
   }
   std::vector<ParticleSet> sets = solver.sets();
   run.write_to(sets);
@@ -135,6 +137,36 @@ TEST(GpuStep, FrictionAgreesInDouble) {
   expect_agreement<double>(gpu_scenes::column_friction, 1e-10);
 }
 TEST(GpuStep, FrictionAgreesInSingle) { expect_agreement<float>(gpu_scenes::block_friction, 1e-5); }
+TEST(GpuStep, MixturesAgreeInDouble) {
+  expect_agreement<double>(gpu_scenes::column_mixture, 1e-10);
+  expect_agreement<double>(gpu_scenes::block_mixture, 1e-10);
+}
+TEST(GpuStep, MixturesAgreeInSingle) { expect_agreement<float>(gpu_scenes::column_mixture, 1e-5); }
+TEST(GpuStep, DampingAgreesInDouble) {
+  expect_agreement<double>(gpu_scenes::block_damped, 1e-10);
+  expect_agreement<double>(gpu_scenes::column_damped, 1e-10);
+  expect_agreement<double>(gpu_scenes::column_damped_fmpm, 1e-10);
+}
+TEST(GpuStep, DampingAgreesInSingle) {
+  expect_agreement<float>(gpu_scenes::block_damped, 1e-5);
+  expect_agreement<float>(gpu_scenes::column_damped, 1e-5);
+}
+TEST(GpuStep, LoadsAgreeInDouble) {
+  expect_agreement<double>(gpu_scenes::block_loaded, 1e-10);
+  expect_agreement<double>(gpu_scenes::column_loaded, 1e-10);
+}
+TEST(GpuStep, TractionsAgreeInDouble) {
+  expect_agreement<double>(gpu_scenes::column_traction, 1e-10);
+  expect_agreement<double>(gpu_scenes::block_traction, 1e-10);
+}
+TEST(GpuStep, TractionsAgreeInSingle) { expect_agreement<float>(gpu_scenes::column_traction, 1e-5); }
+TEST(GpuStep, LoadsAgreeInSingle) { expect_agreement<float>(gpu_scenes::block_loaded, 1e-5); }
+TEST(GpuStep, PrescribedVelocitiesAgreeInDouble) {
+  expect_agreement<double>(gpu_scenes::block_pulled, 1e-10);
+  expect_agreement<double>(gpu_scenes::column_pressed, 1e-10);
+  expect_agreement<double>(gpu_scenes::blocks_held, 1e-10);
+}
+TEST(GpuStep, PrescribedVelocitiesAgreeInSingle) { expect_agreement<float>(gpu_scenes::block_pulled, 1e-5); }
 
 // Each update with each shape function and transfer: 48 runs of a little column, between a wall that it sticks to and a
 // floor that it slides on.
@@ -240,6 +272,10 @@ TEST(GpuStep, OrderOfVisitsDoesNotMatter) {
   expect_same_bits<float>(gpu_scenes::column_cubic);
   expect_same_bits<double>(gpu_scenes::column_apic);
   expect_same_bits<float>(gpu_scenes::column_friction);
+  expect_same_bits<double>(gpu_scenes::column_mixture);
+  expect_same_bits<double>(gpu_scenes::column_damped);
+  expect_same_bits<float>(gpu_scenes::block_loaded);
+  expect_same_bits<double>(gpu_scenes::column_pressed);
 }
 
 // Half of the steps here, the rest by the solver from what was written back.
@@ -267,6 +303,24 @@ TEST(GpuStep, RefusesByName) {
   d = gpu_scenes::column(mpm::Precision::float64);
   d.walls[0].kind = mpm::WallKind::absorbing;
   EXPECT_EQ(mpm_gpu::refused(d), "an absorbing face");
+  d = gpu_scenes::block_damped(mpm::Precision::float64);
+  d.method.damping.grid = mpm::Function::parse("10 * x");
+  EXPECT_EQ(mpm_gpu::refused(d), "method.damping as a function of place");
+  d = gpu_scenes::block_loaded(mpm::Precision::float64);
+  EXPECT_EQ(mpm_gpu::refused(d), "");
+  const char* of_place = "a load that is a function of the present place, or of time and the place at the start";
+  for (const char* load : {"x", "X + z", "t * X"}) {
+    d.body_forces[0].acceleration[2] = mpm::Function::parse(load, {}, mpm::FunctionPlaces::present_and_start);
+    EXPECT_EQ(mpm_gpu::refused(d), of_place) << load;
+  }
+  d = gpu_scenes::block_traction(mpm::Precision::float64);
+  EXPECT_EQ(mpm_gpu::refused(d), "");
+  d.tractions[0].follows = true;
+  EXPECT_EQ(mpm_gpu::refused(d),
+            "a traction that follows a face, is a function of place, or is with another shape function than ugimp");
+  d = gpu_scenes::column_pressed(mpm::Precision::float64);
+  d.walls[0].kind = mpm::WallKind::frictional;
+  EXPECT_EQ(mpm_gpu::refused(d), "a prescribed velocity beside a frictional wall");
   const std::vector<ParticleSet> none;
   EXPECT_THROW(DeviceRun<double>(d, none), mpm_gpu::GpuError);
 }

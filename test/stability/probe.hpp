@@ -28,6 +28,8 @@ class SimulationProbe {
     time_ = 1e-9 * static_cast<double>(simulation_.time());
   }
   double time() const { return time_; }  ///< [s]
+  /// Modules of the run, for a device.
+  RunModules modules() { return {*state_.mechanics, state_.modules}; }
   const Simulation& simulation() const { return simulation_; }
   /// Particles of the first body, in an order that a step may change; set.id identifies them.
   ParticleSet& set() { return state_.sets[0]; }

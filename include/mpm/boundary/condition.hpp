@@ -51,6 +51,18 @@ struct HeldFace {
 /// give together at a node is booked in equal parts.
 class VelocityConditions final : public FieldStage, public RestPartner {
  public:
+  /// A node's velocity along one direction, by one condition or the sum of several.
+  struct Held {
+    NodeRef ref;
+    Vec3 position;
+    Vec3 direction;
+    int first, count;   ///< range of parts()
+    double start, end;  ///< velocity along the direction as the step begins and ends [m/s]
+  };
+  struct Part {
+    int condition;
+    double sign;  ///< -1: its direction is opposite to that of the Held
+  };
   /// `faces`: slip walls; `field`: the velocity field in which it acts. @throws ConditionError for a direction that is
   /// not a unit vector of the grid's axes
   VelocityConditions(const std::vector<ConditionDefinition>& definitions, std::vector<HeldFace> faces,
@@ -82,6 +94,26 @@ class VelocityConditions final : public FieldStage, public RestPartner {
   bool stirs(const RestingBlock& block, const RestTimes& times) override;
   bool holds(int field, NodeRef node) const override;
 
+  // Functions for a device that takes the steps (step/device.hpp), has the blocks in use and acts on their nodes.
+
+  /// Regions take the velocities of a step of `dt` from `start` on [s]. @throws ConditionError
+  void begin_step(double start, double dt);
+  /// Finds the nodes that are held in these blocks; they refer to them by place in the list. @throws ConditionError
+  void find_nodes(const std::vector<std::array<int, 3>>& blocks);
+  /// Finds the velocities at which they are held as the step begins and ends. @throws ConditionError
+  void find_velocities(double start, double dt);
+  void end_step(double dt);
+
+  /// True if nodes are to be found anew in every step; true if their velocities are.
+  bool moving() const { return moving_; }
+  bool changing() const;
+  const std::vector<Held>& held() const { return held_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  int count() const { return static_cast<int>(conditions_.size()); }
+  /// Books what a condition has given along its direction [N s], and the work of all [J].
+  void count(int condition, double impulse, double exchanged);
+  void count_work(double work) { work_ += work; }
+
   /// The largest prescribed speed at the held nodes at a time [s], the regions standing as they do now [m/s].
   /// @throws ConditionError
   double largest_speed(double time) const;
@@ -95,18 +127,6 @@ class VelocityConditions final : public FieldStage, public RestPartner {
     ImpulseAccount account;
     Vec3 given = Vec3::Zero();  ///< in this step [N s]
   };
-  /// A node's velocity along one direction, by one condition or the sum of several.
-  struct Held {
-    NodeRef ref;
-    Vec3 position;
-    Vec3 direction;
-    int first, count;   ///< range of parts_
-    double start, end;  ///< velocity along the direction as the step begins and ends [m/s]
-  };
-  struct Part {
-    int condition;
-    double sign;  ///< -1: its direction is opposite to that of the Held
-  };
   /// A condition that holds a node, while nodes are found.
   struct Found {
     NodeRef ref;
@@ -116,7 +136,10 @@ class VelocityConditions final : public FieldStage, public RestPartner {
   std::string title(const Condition& condition) const;
   void check_walls(const Condition& condition, const std::array<int, 3>& node, const GridLayout& layout) const;
   /// Makes the directions held at a node from the conditions found there.
-  void join(const Found* begin, const Found* end, const Grid& grid);
+  void join(const Found* begin, const Found* end, const std::array<int, 3>& block);
+  /// Finds nodes in so many blocks: block_at(number).
+  template <class BlockAt>
+  void find_in(int blocks, BlockAt&& block_at);
   double value(const Held& held, double time) const;
   /// `velocity`: along the direction, at which the impulse works [m/s].
   void give(const Held& held, const Vec3& impulse, double velocity);

@@ -62,10 +62,23 @@ class DampingControl final : public Stage {
 
   /// Rates of the step that begins. @throws DampingError
   void begin_step(const StepContext& context);
+  /// The same for a device (step/device.hpp), where no rate is a function of place.
+  void begin_step(double start, double dt);
   DampingRates rates(int set) const;
   /// FLIP fraction of this step.
   double flip() const { return flip_; }
-  void end_step(const StepContext& context, const Damped& damped);
+  /// True if that is by a part of PIC of this scene's damping.
+  bool has_part_of_pic() const { return !definition().pic.is_zero(); }
+  /// Rate of the force on the nodes in this step [1/s].
+  double force_rate() const { return force_rate_; }
+  /// The step began at `start` [s]; `damped`: what the update of particles took.
+  void end_step(double start, double dt, const Damped& damped);
+  void end_step(const StepContext& context, const Damped& damped) { end_step(context.start, context.dt, damped); }
+  /// Books what the force on the nodes gave where a device takes the steps.
+  void count(const ImpulseAccount& given) {
+    account_.impulse += given.impulse;
+    account_.exchanged += given.exchanged;
+  }
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook) const override { return {Rank::damping}; }
@@ -105,6 +118,8 @@ class DampingControl final : public Stage {
     double grid = 0.0, particle = 0.0;  ///< [1/s]
     double pic = 0.0;
   };
+  /// @throws DampingError for a rate that is too large for a step
+  static void check(const Sample& sample, double dt);
   /// Without a place functions of place are left out. `alpha`: of the feedback. @throws DampingError, FunctionError
   Sample sample(int thread, double t, double alpha, const Vec3* place) const;
   /// visit(sample) of what is the same everywhere. @throws DampingError
@@ -128,8 +143,8 @@ class DampingControl final : public Stage {
   double total_mass_ = 0.0;
   bool of_place_;
 
-  double force_rate_ = 0.0;  ///< on the nodes in this step [1/s]
-  DampingRates rates_;       ///< rates of all particles in this step
+  double force_rate_ = 0.0;
+  DampingRates rates_;  ///< rates of all particles in this step
   double given_flip_, flip_;
   std::vector<PaddedArray<double>> grid_values_, particle_values_;  ///< rates of each set's particles [1/s]
   mutable FirstFault fault_;

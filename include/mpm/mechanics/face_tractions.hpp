@@ -71,6 +71,14 @@ class FaceTractions : public Stage, public RestPartner {
   /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.
   double work() const { return work_; }
 
+  const std::vector<TractionTerm>& terms() const { return terms_; }
+  /// Books what tractions have given where a device takes the steps (step/device.hpp): momentum, and work [J].
+  void count(const ImpulseAccount& given, double work) {
+    account_.impulse += given.impulse;
+    account_.exchanged += given.exchanged;
+    work_ += work;
+  }
+
  private:
   struct NodalLoad {
     int set, particle;

@@ -62,7 +62,12 @@ struct LoadTransfers {
   std::unique_ptr<ScalarTransfer> domain, center;
 };
 
-class ParticleLoadStage : public Stage, public RestPartner {};
+class ParticleLoadStage : public Stage, public RestPartner {
+ public:
+  /// Books what loads have given where a device takes the steps (step/device.hpp): momentum [N s], work [J].
+  virtual void count(ParticleLoadTerm::Kind kind, const ImpulseAccount& given) = 0;
+  virtual void count_work(double work) = 0;
+};
 
 /// All loads of a scene on particles, as one stage. Its work is nodal load times the displacement of its node in a
 /// step, with the velocity that conditions have left, over the displacement of FLIP (GIMP notes (2.16)); where

@@ -56,8 +56,8 @@ using AddModules = std::function<void(RunParts&)>;
 struct DeviceMaker {
   /// Names what of a scene does not run there, with the remedy; empty where all does. Asked before anything else.
   std::function<std::string(const SimulationDefinition&)> refused;
-  /// Makes it, from the particles of the assembled run.
-  std::function<std::unique_ptr<Device>(const SimulationDefinition&, const std::vector<ParticleSet>&)> make;
+  /// Makes it, from the particles of the assembled run and for its modules.
+  std::function<std::unique_ptr<Device>(const SimulationDefinition&, const std::vector<ParticleSet>&, RunModules)> make;
 };
 
 struct SimulationOptions {

@@ -1,7 +1,8 @@
 // A processor that takes the steps of a run in memory of its own, as a graphics processor does (doc/gpu.md). The run
 // keeps the clock, the limits of steps, the modules' reports and the checkpoints; its particle sets on the host are
-// brought up to date only when somebody reads them. The modules of such a run act on no grid: what the device does in
-// their place it tells them, so that accounts and checkpoints are those of a run on the processor.
+// brought up to date only when somebody reads them. The modules of such a run act on no grid: the device asks them for
+// what depends on time (rates of damping, loads, prescribed velocities) and books with them what it does in their
+// place, so that accounts and checkpoints are those of a run on the processor.
 //
 // Contact with rigid bodies alone acts on the host, whose bodies, robots and solution for all points of contact it
 // needs, in every step: the device copies the nodes near bodies, and the particles around them, into the host's own
@@ -13,7 +14,8 @@
 
 #include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
-#include "mpm/step/module.hpp"
+#include "mpm/step/mechanics.hpp"
+#include "mpm/step/modules.hpp"
 #include "mpm/step/order.hpp"
 
 namespace mpm {
@@ -32,6 +34,13 @@ class HostContact {
   virtual void act(Hook hook) = 0;
 };
 
+/// Parts of a run that a device asks and tells, which outlive it.
+struct RunModules {
+  Mechanics& mechanics;
+  const Modules& modules;
+  HostContact* contact;  ///< null in a scene without rigid bodies
+};
+
 class Device {
  public:
   /// The particle of a set that limits the time step.
@@ -42,9 +51,9 @@ class Device {
 
   virtual ~Device() = default;
 
-  /// Makes a step of `dt` [s]. `contact`: null in a scene without rigid bodies. @throws ModuleError naming a particle
-  /// that has failed; nothing can be stepped then
-  virtual void step(double dt, HostContact* contact) = 0;
+  /// Makes a step of `dt` [s] that begins at `start` [s]. @throws ModuleError naming a particle that has failed, or
+  /// what has no value then; nothing can be stepped after that
+  virtual void step(double start, double dt) = 0;
   /// Called between sync periods: fits the memory to where the particles are. @throws ModuleError
   virtual void make_room() = 0;
   /// `cell`: smallest edge of a cell [m].
@@ -53,6 +62,8 @@ class Device {
   virtual ImpulseAccount take_given(int face) = 0;
   /// Sum of mass times the way that particles were put around periodic axes since the last call [kg m].
   virtual Vec3 take_carried() = 0;
+  /// Books with the modules what was done in their place since the last call, but for walls and periodic axes.
+  virtual void tell_modules() = 0;
   /// Sums over the particles of a set.
   struct Sums {
     double kinetic = 0.0, elastic = 0.0, plastic = 0.0;  ///< [J]

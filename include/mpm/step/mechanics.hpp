@@ -63,6 +63,14 @@ class Mechanics : public Module {
   virtual bool must_sort() const = 0;
   /// After the blocks have been made anew while particles lie as they have been sorted before.
   virtual void blocks_renewed() = 0;
+
+  // Functions for a device that takes the steps (step/device.hpp).
+
+  /// Books kinetic energy that PIC and damping have taken there [J].
+  virtual void count(double slip, double drag) = 0;
+  /// Steps since one in which the transfer's fraction of FLIP held.
+  virtual std::int32_t& turn() = 0;
+
   /// Over several ranks it is said by sums over all: what depends on when particles are sorted
   /// (mechanics/stress_average.hpp) does not depend on the number of ranks.
   bool needs_sort() const final { return must_sort() || mixed().too_much(); }

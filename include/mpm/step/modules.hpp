@@ -50,6 +50,14 @@ class Modules {
   /// Adds the energies of all modules.
   void energies(EnergyReport& report) const;
   std::vector<NamedNumber> numbers() const;
+  /// The first module of this class, or null.
+  template <class M>
+  M* first() const {
+    for (Module* module : list_) {
+      if (auto* found = dynamic_cast<M*>(module)) return found;
+    }
+    return nullptr;
+  }
   /// The first module of this name, or null.
   const Module* find(const std::string& name) const;
   /// Serialises each module in a group of its own.

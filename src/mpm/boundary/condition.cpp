@@ -62,9 +62,8 @@ void VelocityConditions::check_walls(const Condition& condition, const std::arra
   }
 }
 
-void VelocityConditions::join(const Found* begin, const Found* end, const Grid& grid) {
-  const GridLayout& layout = grid.layout;
-  const auto& block = grid.blocks.block(begin->ref.block);
+void VelocityConditions::join(const Found* begin, const Found* end, const std::array<int, 3>& block) {
+  const GridLayout& layout = layout_;
   const std::size_t first_held = held_.size();
   const Vec3 position = layout.node_position(block, begin->ref.node);
   for (const Found* found = begin; found != end; ++found) {
@@ -95,15 +94,25 @@ void VelocityConditions::join(const Found* begin, const Found* end, const Grid& 
 }
 
 void VelocityConditions::find_nodes(const Grid& grid) {
-  const GridLayout& layout = grid.layout;
-  const double band = kOnSurface * layout.smallest_cell();
   generation_ = grid.blocks.generation();
+  find_in(grid.blocks.size(), [&](int b) -> const std::array<int, 3>& { return grid.blocks.block(b); });
+}
+
+void VelocityConditions::find_nodes(const std::vector<std::array<int, 3>>& blocks) {
+  generation_ = 0;  // those of no grid of the host
+  find_in(static_cast<int>(blocks.size()), [&](int b) -> const std::array<int, 3>& { return blocks[b]; });
+}
+
+template <class BlockAt>
+void VelocityConditions::find_in(int blocks, BlockAt&& block_at) {
+  const GridLayout& layout = layout_;
+  const double band = kOnSurface * layout.smallest_cell();
   found_.clear();
   for (std::size_t c = 0; c < conditions_.size(); ++c) {
     const RigidBody& region = conditions_[c].region;
     const Box bounds = region.world_bounds().grown(band);
-    for (int b = 0; b < grid.blocks.size(); ++b) {
-      const auto& block = grid.blocks.block(b);
+    for (int b = 0; b < blocks; ++b) {
+      const std::array<int, 3>& block = block_at(b);
       const Box nodes{layout.node_position(block, 0), layout.node_position(block, layout.nodes_per_block() - 1)};
       if (!nodes.intersects(bounds)) continue;
       for (int n = 0; n < layout.nodes_per_block(); ++n) {
@@ -123,7 +132,7 @@ void VelocityConditions::find_nodes(const Grid& grid) {
            found_[end].ref.node == found_[i].ref.node) {
       ++end;
     }
-    join(&found_[i], found_.data() + end, grid);
+    join(&found_[i], found_.data() + end, block_at(found_[i].ref.block));
   }
 }
 
@@ -203,19 +212,38 @@ std::string VelocityConditions::limit_text(const StepLimit& limit) const {
   return fmt::format("speed of 'boundaries.conditions' ({:.4g} m/s)", limit.speed);
 }
 
-void VelocityConditions::momentum_gathered(FieldContext& context) {
+void VelocityConditions::begin_step(double start, double dt) {
   for (Condition& condition : conditions_) {
     try {
-      condition.region.begin_step(context.start, context.dt);
+      condition.region.begin_step(start, dt);
     } catch (const FunctionError& error) {
       throw ConditionError(fmt::format("{}: its region's motion: {}", title(condition), error.what()));
     }
   }
-  if (moving_ || generation_ != context.grid.blocks.generation()) find_nodes(context.grid);
+}
+
+void VelocityConditions::find_velocities(double start, double dt) {
   for (Held& held : held_) {
-    held.start = value(held, context.start);
-    held.end = value(held, context.start + context.dt);
+    held.start = value(held, start);
+    held.end = value(held, start + dt);
   }
+}
+
+bool VelocityConditions::changing() const {
+  const auto changes = [](const Condition& condition) { return condition.velocity && condition.velocity->uses_time(); };
+  return moving_ || std::any_of(conditions_.begin(), conditions_.end(), changes);
+}
+
+void VelocityConditions::count(int condition, double impulse, double exchanged) {
+  Condition& one = conditions_.at(static_cast<std::size_t>(condition));
+  one.account.impulse += impulse * one.direction;
+  one.account.exchanged += exchanged;
+}
+
+void VelocityConditions::momentum_gathered(FieldContext& context) {
+  begin_step(context.start, context.dt);
+  if (moving_ || generation_ != context.grid.blocks.generation()) find_nodes(context.grid);
+  find_velocities(context.start, context.dt);
   ended_ = false;
   if (!context.works_at_end) return;
   std::vector<Grid::Prescribed>& list = context.grid.prescribed;
@@ -281,8 +309,12 @@ void VelocityConditions::grid_advanced(FieldContext& context) {
   for (Condition& condition : conditions_) {
     condition.account.add(condition.given);
     condition.given = Vec3::Zero();
-    condition.region.end_step(context.dt);
   }
+  end_step(context.dt);
+}
+
+void VelocityConditions::end_step(double dt) {
+  for (Condition& condition : conditions_) condition.region.end_step(dt);
 }
 
 void VelocityConditions::accounts(std::vector<ImpulseAccount>& list) const {

@@ -137,6 +137,11 @@ class Continuum final : public Mechanics {
                        limit.place.y(), limit.place.z());
   }
   Mixed mixed() const override { return mixed_; }
+  void count(double slip, double drag) override {
+    slip_energy_ += slip;
+    drag_energy_ += drag;
+  }
+  std::int32_t& turn() override { return turn_; }
   bool must_sort() const override { return must_sort_; }
   void blocks_renewed() override { generation_ = passes_.fields().front().grid.blocks.generation(); }
   void energies(EnergyReport& report) const override {

@@ -107,32 +107,37 @@ void DampingControl::each_particle(double t, double alpha, const GridLayout& lay
   fault_.check<DampingError>();
 }
 
-void DampingControl::begin_step(const StepContext& context) {
-  const double dt = context.dt, t = context.start + 0.5 * dt;
+void DampingControl::check(const Sample& sample, double dt) {
+  const double rate = sample.grid + sample.particle;
+  if (rate * dt <= 1.0) return;
+  throw DampingError(
+      fmt::format("a rate of {:.4g} 1/s turns a velocity round in a step of {:.4g} s; lower it, give feedback a "
+                  "limit, or lower time.step or time.sync",
+                  rate, dt));
+}
+
+void DampingControl::begin_step(double start, double dt) {
   const bool on_nodes = definition().in_force;
-  const auto check = [dt](const Sample& sample) {
-    const double rate = sample.grid + sample.particle;
-    if (rate * dt <= 1.0) return;
-    throw DampingError(
-        fmt::format("a rate of {:.4g} 1/s turns a velocity round in a step of {:.4g} s; lower it, give feedback a "
-                    "limit, or lower time.step or time.sync",
-                    rate, dt));
-  };
-  everywhere(t, alpha_, [&](const Sample& sample) {
-    check(sample);
+  everywhere(start + 0.5 * dt, alpha_, [&](const Sample& sample) {
+    check(sample, dt);
     force_rate_ = on_nodes ? sample.grid : 0.0;
     rates_ = {on_nodes ? 0.0 : sample.grid, sample.particle};
     // A part of PIC of its own replaces the transfer's, which is FLIP then.
     flip_ = given_flip_ - sample.pic;
   });
+}
+
+void DampingControl::begin_step(const StepContext& context) {
+  const double dt = context.dt, t = context.start + 0.5 * dt;
+  begin_step(context.start, dt);
   if (!of_place_) return;
-  const bool exchanges = definition().pic.uses_place();
+  const bool on_nodes = definition().in_force, exchanges = definition().pic.uses_place();
   for (std::size_t s = 0; s < sets_.size(); ++s) {  // particles may have come from other ranks and gone there
     grid_values_[s].resize(sets_[s].id.size());
     particle_values_[s].resize(sets_[s].id.size());
   }
   each_particle(t, alpha_, context.layout(), [&](int, std::size_t s, int p, const Sample& sample) {
-    check(sample);
+    check(sample, dt);
     const double pic = exchanges ? sample.pic / dt : 0.0;
     grid_values_[s][p] = (on_nodes ? 0.0 : sample.grid) - pic;
     particle_values_[s][p] = sample.particle + pic;
@@ -177,12 +182,12 @@ Vec3 DampingControl::damp_nodes(Grid& grid, double dt) {
   return given;
 }
 
-void DampingControl::end_step(const StepContext& context, const Damped& damped) {
+void DampingControl::end_step(double start, double dt, const Damped& damped) {
   if (in_update()) account_.add(-damped.momentum);
   if (!definition().feedback) return;
   const FeedbackDefinition& feedback = *definition().feedback;
   const double energy = feedback.of == FeedbackDefinition::Of::grid ? damped.grid_energy : damped.particle_energy;
-  alpha_ = std::min(alpha_ + context.dt * growth(sum_of_all(ranks_, energy), context.start), feedback.limit);
+  alpha_ = std::min(alpha_ + dt * growth(sum_of_all(ranks_, energy), start), feedback.limit);
 }
 
 double DampingControl::growth(double energy, double t) const {

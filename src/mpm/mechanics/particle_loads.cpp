@@ -100,6 +100,12 @@ class ParticleLoads final : public ParticleLoadStage {
       if (there_[kind]) list.push_back(accounts_[kind]);
     }
   }
+  void count(ParticleLoadTerm::Kind kind, const ImpulseAccount& given) override {
+    ImpulseAccount& account = accounts_[static_cast<std::size_t>(kind)];
+    account.impulse += given.impulse;
+    account.exchanged += given.exchanged;
+  }
+  void count_work(double work) override { work_ += work; }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void serialise(StateArchive& archive) override {
     archive.sum("work", work_);

@@ -20,32 +20,40 @@ int find_set(const std::vector<ParticleSet>& sets, const std::string& body, cons
   throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
 }
 
+/// Those that loads may act on.
+struct Bodies {
+  const SimulationDefinition& definition;
+  const std::vector<ParticleSet>& sets;
+  Communicator* ranks;
+};
+Bodies bodies_of(const RunParts& parts) { return {parts.definition, parts.sets, parts.ranks}; }
+
 /// Particles of a set on all ranks.
-std::uint64_t whole_of(int set, const RunParts& parts) {
-  const std::optional<BodyPart>& part = parts.definition.bodies[set].part;
-  return part ? part->whole : parts.sets[set].id.size();
+std::uint64_t whole_of(int set, const Bodies& bodies) {
+  const std::optional<BodyPart>& part = bodies.definition.bodies[set].part;
+  return part ? part->whole : bodies.sets[set].id.size();
 }
 
-void check_particles(const std::vector<std::uint32_t>& particles, int set, const RunParts& parts, const char* load) {
-  const std::uint64_t whole = whole_of(set, parts);
+void check_particles(const std::vector<std::uint32_t>& particles, int set, const Bodies& bodies, const char* load) {
+  const std::uint64_t whole = whole_of(set, bodies);
   for (const std::uint32_t p : particles) {
     if (p < whole) continue;
     throw DefinitionError(
-        fmt::format("{} on '{}': it has no particle {}, but {}", load, parts.sets[set].name, p, whole));
+        fmt::format("{} on '{}': it has no particle {}, but {}", load, bodies.sets[set].name, p, whole));
   }
 }
 
-ParticleLoadTerm make_term(const ParticleForceDefinition& load, const RunParts& parts) {
-  const std::vector<ParticleSet>& sets = parts.sets;
+ParticleLoadTerm make_term(const ParticleForceDefinition& load, const Bodies& bodies) {
+  const std::vector<ParticleSet>& sets = bodies.sets;
   ParticleLoadTerm term;
   term.kind = ParticleLoadTerm::Kind::particle_force;
   term.set = find_set(sets, load.body, "particle force");
   term.value = load.force;
   term.spread = load.spread;
   const ParticleSet& set = sets[*term.set];
-  check_particles(load.particles, *term.set, parts, "particle force");
+  check_particles(load.particles, *term.set, bodies, "particle force");
   if (!load.particles.empty()) {
-    term.chosen.assign(whole_of(*term.set, parts), 0);
+    term.chosen.assign(whole_of(*term.set, bodies), 0);
     for (const std::uint32_t p : load.particles) term.chosen[p] = 1;
   }
   if (!load.shared) {
@@ -58,8 +66,8 @@ ParticleLoadTerm make_term(const ParticleForceDefinition& load, const RunParts& 
     count += 1.0;
     mass += set.mass_of(p);
   }
-  count = sum_of_all(parts.ranks, count);
-  mass = sum_of_all(parts.ranks, mass);
+  count = sum_of_all(bodies.ranks, count);
+  mass = sum_of_all(bodies.ranks, mass);
   if (set.masses.empty()) mass = set.mass * count;
   term.factor = 1.0 / mass;
   return term;
@@ -113,7 +121,7 @@ ChosenFaces choose_faces(const std::string& body, int face, const std::vector<st
   }
   chosen.face = {static_cast<int>(axis - axes.begin()), face % 2 == 1};
   chosen.particles = particles.empty() ? outermost_particles(set, parts.layout(), chosen.face, parts.ranks) : particles;
-  check_particles(chosen.particles, chosen.set, parts, what);
+  check_particles(chosen.particles, chosen.set, bodies_of(parts), what);
   if (axisymmetric(definition.geometry) && chosen.face.axis == 0 && !chosen.face.upper &&
       all_on_axis(chosen.particles, set, parts)) {
     throw DefinitionError(
@@ -122,9 +130,8 @@ ChosenFaces choose_faces(const std::string& body, int face, const std::vector<st
   return chosen;
 }
 
-void add_particle_loads(RunParts& parts) {
-  const SimulationDefinition& definition = parts.definition;
-  std::vector<ParticleSet>& sets = parts.sets;
+std::vector<ParticleLoadTerm> particle_load_terms(const SimulationDefinition& definition,
+                                                  const std::vector<ParticleSet>& sets, Communicator* ranks) {
   std::vector<ParticleLoadTerm> terms;
   for (const BodyForceDefinition& load : definition.body_forces) {
     ParticleLoadTerm term;
@@ -133,7 +140,16 @@ void add_particle_loads(RunParts& parts) {
     if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
     terms.push_back(std::move(term));
   }
-  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, parts));
+  for (const ParticleForceDefinition& load : definition.particle_forces) {
+    terms.push_back(make_term(load, {definition, sets, ranks}));
+  }
+  return terms;
+}
+
+void add_particle_loads(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  std::vector<ParticleSet>& sets = parts.sets;
+  const std::vector<ParticleLoadTerm> terms = particle_load_terms(definition, sets, parts.ranks);
   for (const ParticleLoadTerm& term : terms) {
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if (!term.set || *term.set == static_cast<int>(s)) remember_start(term.value, sets[s]);

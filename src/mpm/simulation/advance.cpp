@@ -67,7 +67,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
     fetched = Device::Numbers::none;
     context.strain_at_start = strain_at_start(definition.method.update);
     if (host_contact) host_contact->begin_step(context);
-    device->step(dt, host_contact.get());
+    device->step(start, dt);
   } else {
     kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   }
@@ -122,10 +122,11 @@ void Simulation::State::begin_modules() {
 
 void Simulation::State::hand_to_device(const DeviceMaker& maker) {
   begin_modules();
-  device = maker.make(definition, sets);
+  device = maker.make(definition, sets, {*mechanics, modules, host_contact.get()});
 }
 
 void Simulation::State::tell_modules() {
+  device->tell_modules();
   for (Module* module : modules.list()) {
     if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
     if (auto* axes = dynamic_cast<PeriodicAxes*>(module)) axes->count(device->take_carried());

@@ -8,9 +8,12 @@
 #pragma clang force_cuda_host_device begin
 #include "mpm/material/norsand_energy.hpp"
 #include "mpm/shape/bspline.hpp"
+#include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
+#include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
+#include "mpm_gpu/prescribed_passes.hpp"
 #pragma clang force_cuda_host_device end
 #include "mpm_gpu/device/law_functions.hpp"
 
@@ -39,10 +42,26 @@ void each_pass() {
   (void)&launch<GradientKernel<T, Geometry::kDim, ShapeClass>>;
   (void)&launch<IncrementToParticlesKernel<T, Geometry::kDim, ShapeClass>>;
   (void)&launch<IncrementKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<IncrementKernel<T, Geometry::kDim, ShapeClass, true>>;
   (void)&launch<ForceKernel<T, Geometry, ShapeClass>>;
+  (void)&launch<ForceKernel<T, Geometry, ShapeClass, true>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAffine>>;
+  (void)&launch<LoadKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement, Counting::slip>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement, Counting::damping>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt, Counting::damping>>;
+  (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAffine, Counting::damping>>;
+}
+
+template <class T, int Dim>
+void each_of_loads() {
+  (void)&launch<LoadOfParticleKernel<T, Dim>>;
+  (void)&launch<LoadKernel<T, Dim, mpm::Dirac>>;
+  (void)&launch<TractionKernel<T, Dim>>;
+  (void)&launch<LoadPowerKernel<T, Dim>>;
+  (void)&launch<HoldKernel<T, Dim>>;
 }
 
 /// False for a user's law, which is code of the host.
@@ -67,12 +86,17 @@ void each_kernel() {
   each_pass<T, Geometry, mpm::UgimpStretch>();
   each_pass<T, Geometry, mpm::QuadraticSpline>();
   each_pass<T, Geometry, mpm::CubicSpline>();
+  each_of_loads<T, Geometry::kDim>();
   (void)&launch<DomainKernel<T, Geometry::kDim>>;
   (void)&launch<FirstIncrementKernel<T, Geometry::kDim>>;
+  (void)&launch<FirstIncrementKernel<T, Geometry::kDim, true>>;
   each_law<T, Geometry>(static_cast<const mpm::Law*>(nullptr));
 }
 
 void all_kernels() {
+  (void)&launch<HeldWorkKernel>;
+  (void)&launch<HeldShareKernel>;
+  (void)&launch<KeyKernel>;
   each_kernel<double, mpm::Solid>();
   each_kernel<float, mpm::Solid>();
   each_kernel<double, mpm::PlaneStrain>();

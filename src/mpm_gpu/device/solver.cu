@@ -3,6 +3,7 @@
 
 #pragma clang force_cuda_host_device begin
 #include "mpm_gpu/faces.hpp"
+#include "mpm_gpu/taken.hpp"
 #include "mpm_gpu/views.hpp"
 #pragma clang force_cuda_host_device end
 

@@ -1,9 +1,12 @@
 #include "mpm_gpu/passes.hpp"
 
 #include "mpm/shape/bspline.hpp"
+#include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
+#include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"
+#include "mpm_gpu/prescribed_passes.hpp"
 
 namespace mpm_gpu {
 namespace {
@@ -25,8 +28,9 @@ struct PassesOf {
       run.for_each("gpu: velocity gradient", set.count, GradientKernel<T, kDim, ShapeClass>{step, set});
     }
   }
+  template <bool Mixed>
   static void first_increment(Executor& run, const StepView<T>& step) {
-    run.for_each("gpu: increments", step.nodes.nodes, FirstIncrementKernel<T, kDim>{step});
+    run.for_each("gpu: increments", step.nodes.nodes, FirstIncrementKernel<T, kDim, Mixed>{step});
   }
   static void to_particles(Executor& run, const StepView<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
@@ -34,29 +38,56 @@ struct PassesOf {
       run.for_each("gpu: increments", set.count, IncrementToParticlesKernel<T, kDim, ShapeClass>{step, set});
     }
   }
+  template <bool Mixed>
   static void increment(Executor& run, const StepView<T>& step) {
-    run.for_each("gpu: increments", step.nodes.nodes, IncrementKernel<T, kDim, ShapeClass>{step});
+    run.for_each("gpu: increments", step.nodes.nodes, IncrementKernel<T, kDim, ShapeClass, Mixed>{step});
   }
+  template <bool Driven>
   static void force(Executor& run, const StepView<T>& step) {
-    run.for_each("gpu: force and momentum of nodes", step.nodes.nodes, ForceKernel<T, Geometry, ShapeClass>{step});
+    run.for_each("gpu: force and momentum of nodes", step.nodes.nodes,
+                 ForceKernel<T, Geometry, ShapeClass, Driven>{step});
   }
-  template <mpm_kernel::Motion Kind>
+  template <mpm_kernel::Motion Kind, Counting Counts>
   static void move(Executor& run, const StepView<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
       const SetView& set = step.sets[s];
-      run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass, Kind>{step, set});
+      run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass, Kind, Counts>{step, set});
     }
+  }
+  static void load_of_particles(Executor& run, const StepView<T>& step, const LoadView& load) {
+    run.for_each("gpu: loads", step.particles.count, LoadOfParticleKernel<T, kDim>{step, load});
+  }
+  template <template <class> class Spread>
+  static void load(Executor& run, const StepView<T>& step, bool adds) {
+    run.for_each("gpu: loads", step.nodes.nodes, LoadKernel<T, kDim, Spread>{step, adds});
+  }
+  static void traction(Executor& run, const StepView<T>& step, const TractionView& traction, bool adds) {
+    run.for_each("gpu: loads", step.nodes.nodes, TractionKernel<T, kDim>{step, traction, adds});
+  }
+  static void load_power(Executor& run, const StepView<T>& step, double* power) {
+    run.for_each("gpu: loads", step.nodes.nodes, LoadPowerKernel<T, kDim>{step, power});
+  }
+  static void hold(Executor& run, const StepView<T>& step, const HeldView& held, HeldPart part) {
+    run.for_each("gpu: prescribed velocities", held.nodes, HoldKernel<T, kDim>{step, held, part});
   }
   static constexpr bool kStretches = ShapeClass<mpm::Wide<T>>::kStretches;
   static constexpr Passes<T> kPasses = {
       kStretches ? &domains : nullptr,
       {&momentum<false>, &momentum<true>},
       &gradient,
-      &first_increment,
+      {&first_increment<false>, &first_increment<true>},
       &to_particles,
-      &increment,
-      &force,
-      {&move<mpm_kernel::kIncrement>, &move<mpm_kernel::kAdopt>, &move<mpm_kernel::kAffine>}};
+      {&increment<false>, &increment<true>},
+      {&force<false>, &force<true>},
+      {{&move<mpm_kernel::kIncrement, Counting::nothing>, &move<mpm_kernel::kIncrement, Counting::slip>,
+        &move<mpm_kernel::kIncrement, Counting::damping>},
+       {&move<mpm_kernel::kAdopt, Counting::nothing>, nullptr, &move<mpm_kernel::kAdopt, Counting::damping>},
+       {&move<mpm_kernel::kAffine, Counting::nothing>, nullptr, &move<mpm_kernel::kAffine, Counting::damping>}},
+      &load_of_particles,
+      {&load<ShapeClass>, &load<mpm::Dirac>},
+      &traction,
+      &load_power,
+      &hold};
 };
 
 template <class T, template <class> class ShapeClass>
@@ -79,6 +110,17 @@ const Passes<T>& choose(int dim, Shape shape) {
 }
 
 }  // namespace
+
+void find_held_work(Executor& run, const HeldView& held, double* work) {
+  run.for_each("gpu: prescribed velocities", held.entries, HeldWorkKernel{held, work});
+}
+void find_held_shares(Executor& run, const HeldView& held, const std::uint32_t* entry, const double* factor,
+                      double* share, long count) {
+  run.for_each("gpu: prescribed velocities", count, HeldShareKernel{held, entry, factor, share});
+}
+void copy_keys(Executor& run, const NodeView& nodes, std::uint64_t* to) {
+  run.for_each("gpu: blocks", nodes.blocks, KeyKernel{nodes.key, to});
+}
 
 const Passes<double>& passes(int dim, Shape shape, double) { return choose<double>(dim, shape); }
 const Passes<float>& passes(int dim, Shape shape, float) { return choose<float>(dim, shape); }

@@ -78,7 +78,7 @@ struct ParticleView {
 };
 
 /// Findings of a kernel about a particle.
-enum Fault : std::uint8_t { kLeftCell = 1, kOutside = 2, kInverted = 4 };
+enum Fault : std::uint8_t { kLeftCell = 1, kOutside = 2, kInverted = 4, kReturned = 8 };
 
 struct NodeView {
   long blocks, nodes;        ///< numbers of both

@@ -276,8 +276,7 @@ std::string refused_in_a_run(const SimulationDefinition& d) {
   // State of their nodes in the step before is in no checkpoint of a device, and in an edge two have one account.
   if (any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }))
     return "a frictional wall in a run";
-  if (any_liquid(d)) return "a liquid, whose volume is corrected,";
-  return d.grid.leave_limit > 0 ? "grid.leave_limit" : "";
+  return any_liquid(d) ? "a liquid, whose volume is corrected," : "";
 }
 
 template <class T>

@@ -37,12 +37,16 @@ struct Passes {
   void (*load_power)(Executor&, const StepView<T>&, double* power);
   /// Holds nodes at prescribed velocities.
   void (*hold)(Executor&, const StepView<T>&, const HeldView&, HeldPart);
+  /// Puts particles outside the grid back (leaving_passes.hpp).
+  void (*put_back)(Executor&, const StepView<T>&, double* numbers);
 };
 
-// The same for any shape function and precision (prescribed_passes.hpp).
+// The same for any shape function and precision (prescribed_passes.hpp, leaving_passes.hpp).
 void find_held_work(Executor& run, const HeldView& held, double* work);
 void find_held_shares(Executor& run, const HeldView& held, const std::uint32_t* entry, const double* factor,
                       double* share, long count);
+void copy_faults(Executor& run, const std::uint8_t* fault, const std::uint32_t* id, long count, std::uint8_t* fault_to,
+                 std::uint32_t* id_to);
 void copy_keys(Executor& run, const NodeView& nodes, std::uint64_t* to);
 
 /// Strain and stress of the particles of one set, by its law.

@@ -25,6 +25,8 @@ class Stage {
   /// Acts as a stage does at the hook. At `forces_gathered`, which comes before the internal force here,
   /// NodeView::load is to be set.
   virtual void act(mpm::Hook, Executor&, const StepView<T>&) {}
+  /// Asked when particles are outside the grid: true when it has put them all back. @throws mpm::ModuleError
+  virtual bool put_back(Executor&, const StepView<T>&) { return false; }
   /// The step is done, and its sums are known.
   virtual void end_step(Executor&, const StepView<T>&, double /*start*/, const Taken&) {}
   /// Books with modules of the solver what was counted since the last call.

@@ -100,7 +100,7 @@ struct ParticleView {
 };
 
 /// Findings of a kernel about a particle.
-enum Fault : std::uint8_t { kLeftCell = 1, kOutside = 2, kInverted = 4 };
+enum Fault : std::uint8_t { kLeftCell = 1, kOutside = 2, kInverted = 4, kReturned = 8 };
 
 /// Sums over particles, times their mass: energies [J], momentum [N s], places [kg m].
 struct Totals {

@@ -237,7 +237,7 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
       store.strain_before.upload(std::vector<double>(before->begin(), before->end()), first);
     }
     copy(set.affine, store.affine);
-    // Of all sets where one has them.
+    // A number of each particle of all sets, where one has them.
     const auto complete = [&](const auto& from, bool any, double same, Buffer<T>& to) {
       std::vector<T> numbers(set.size(), static_cast<T>(same));
       for (int p = 0; p < set.size() && !from.empty(); ++p) numbers[p] = static_cast<T>(from[0][p]);
@@ -301,8 +301,7 @@ std::string refused_in_a_run(const SimulationDefinition& d) {
   // State of their nodes in the step before is in no checkpoint of a device, and in an edge two have one account.
   if (any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }))
     return "a frictional wall in a run";
-  if (any_liquid(d)) return "a liquid, whose volume is corrected,";
-  return d.grid.leave_limit > 0 ? "grid.leave_limit" : "";
+  return any_liquid(d) ? "a liquid, whose volume is corrected," : "";
 }
 
 template <class T>

@@ -267,7 +267,7 @@ void Solver<T>::check(const StepView<T>& now, double start) {
   const Counting counted = counting(now.settings);
   const int dim = dim_;
   const long count = count_;
-  const OfParticles all = run_.reduce<OfParticles>(
+  OfParticles all = run_.reduce<OfParticles>(
       "gpu: checks", count_,
       [=](long i) {
         OfParticles one;
@@ -286,6 +286,12 @@ void Solver<T>::check(const StepView<T>& now, double start) {
                                place, what, steps_));
   };
   if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
+  if (all.outside != OfParticles::kNone) {
+    must_sort_ = true;
+    const StepView<T> ended = view(now.settings.dt);  // places have been swapped
+    const auto puts_back = [&](auto& stage) { return stage->put_back(run_, ended); };
+    if (std::any_of(stages_.begin(), stages_.end(), puts_back)) all.outside = OfParticles::kNone;
+  }
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
   for (auto& stage : stages_) stage->end_step(run_, now, start, all.taken);
 }

@@ -7,6 +7,7 @@
 #include "mpm/modules/shipped_modules.hpp"
 #include "mpm_gpu/damping.hpp"
 #include "mpm_gpu/error.hpp"
+#include "mpm_gpu/leaving.hpp"
 #include "mpm_gpu/loads.hpp"
 #include "mpm_gpu/mixture.hpp"
 #include "mpm_gpu/near_bodies.hpp"
@@ -49,6 +50,12 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
   if (!d.conditions.empty()) {
     auto* conditions = modules == nullptr ? nullptr : modules->modules.template first<mpm::VelocityConditions>();
     solver.add(std::make_unique<Prescribed<T>>(conditions, d.conditions, layout, solver.passes()));
+  }
+  if (d.grid.leave_limit > 0) {
+    auto* leaving = modules == nullptr ? nullptr : modules->modules.template first<mpm::Leaving>();
+    long particles = 0;
+    for (const mpm::ParticleSet& set : sets) particles += set.size();
+    solver.add(std::make_unique<PutsBack<T>>(leaving, d.grid.leave_limit, particles, layout, solver.passes()));
   }
   std::optional<Tractions<T>> tractions;
   if (!d.tractions.empty()) {

@@ -154,4 +154,13 @@ inline mpm::SimulationDefinition blocks_held(mpm::Precision precision) {
   return d;
 }
 
+/// The two blocks of which one runs out of the domain, and is put back.
+inline mpm::SimulationDefinition blocks_leaving(mpm::Precision precision) {
+  mpm::SimulationDefinition d = two_blocks(precision);
+  d.walls[1].kind = mpm::WallKind::none;
+  d.grid.leave_limit = 64;
+  d.bodies[1] = block(d, "foam", {7.4, 0.0, 0.2}, {11.4, 0.0, 4.2}, {4.0, 0.0, -0.5});
+  return d;
+}
+
 }  // namespace gpu_scenes

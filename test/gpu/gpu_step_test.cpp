@@ -167,6 +167,8 @@ TEST(GpuStep, PrescribedVelocitiesAgreeInDouble) {
   expect_agreement<double>(gpu_scenes::blocks_held, 1e-10);
 }
 TEST(GpuStep, PrescribedVelocitiesAgreeInSingle) { expect_agreement<float>(gpu_scenes::block_pulled, 1e-5); }
+TEST(GpuStep, ParticlesPutBackAgreeInDouble) { expect_agreement<double>(gpu_scenes::blocks_leaving, 1e-10); }
+TEST(GpuStep, ParticlesPutBackAgreeInSingle) { expect_agreement<float>(gpu_scenes::blocks_leaving, 1e-5); }
 
 // Each update with each shape function and transfer: 48 runs of a little column, between a wall that it sticks to and a
 // floor that it slides on.

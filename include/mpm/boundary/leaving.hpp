@@ -40,6 +40,11 @@ class Leaving final : public Module {
   /// Puts back every particle that is beyond the place where its set may be. False when there is one that cannot be,
   /// since it is not finite or the limit has been passed; then the particles that come after it are as they were.
   bool put_back() override;
+  /// Books what a device (step/device.hpp) has done in this place: particles that it has put back, by id, momentum [N
+  /// s] and energy [J]. False when more have left than may.
+  bool count(const std::vector<std::uint32_t>& ids, const Vec3& given, double taken);
+  /// The reason then.
+  OutsideReason too_many() const;
   std::optional<OutsideReason> why_outside(const GridLayout&, const ParticleSet&, int particle) const override;
   void serialise(StateArchive& archive) override {
     archive.value("count", count_);

@@ -60,12 +60,27 @@ bool Leaving::put_back() {
   return returned.all;
 }
 
+bool Leaving::count(const std::vector<std::uint32_t>& ids, const Vec3& given, double taken) {
+  for (const std::uint32_t id : ids) {
+    if (has_left(id)) continue;
+    if (left_.size() <= id) left_.resize(id + 1, 0);
+    left_[id] = 1;
+    ++count_;
+  }
+  account_.add(given);
+  taken_ += taken;
+  return count_ <= limit_;
+}
+
 std::optional<OutsideReason> Leaving::why_outside(const GridLayout&, const ParticleSet&, int) const {
   if (count_ <= limit_) return std::nullopt;
-  return OutsideReason{
-      fmt::format("more than {} particles have left the grid (grid.leave.limit)", limit_),
-      "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', raise the limit, or lower "
-      "time.cfl if the run blew up"};
+  return too_many();
+}
+
+OutsideReason Leaving::too_many() const {
+  return {fmt::format("more than {} particles have left the grid (grid.leave.limit)", limit_),
+          "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', raise the limit, or lower "
+          "time.cfl if the run blew up"};
 }
 
 }  // namespace mpm

@@ -11,6 +11,7 @@
 #include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
+#include "mpm_gpu/leaving_passes.hpp"
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/prescribed_passes.hpp"
@@ -62,6 +63,7 @@ void each_of_loads() {
   (void)&launch<TractionKernel<T, Dim>>;
   (void)&launch<LoadPowerKernel<T, Dim>>;
   (void)&launch<HoldKernel<T, Dim>>;
+  (void)&launch<PutBackKernel<T, Dim>>;
 }
 
 /// False for a user's law, which is code of the host.
@@ -97,6 +99,7 @@ void all_kernels() {
   (void)&launch<HeldWorkKernel>;
   (void)&launch<HeldShareKernel>;
   (void)&launch<KeyKernel>;
+  (void)&launch<FaultKernel>;
   each_kernel<double, mpm::Solid>();
   each_kernel<float, mpm::Solid>();
   each_kernel<double, mpm::PlaneStrain>();

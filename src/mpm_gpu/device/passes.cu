@@ -5,6 +5,7 @@
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
+#include "mpm_gpu/leaving_passes.hpp"
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"

@@ -3,6 +3,7 @@
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
+#include "mpm_gpu/leaving_passes.hpp"
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"
@@ -70,6 +71,12 @@ struct PassesOf {
   static void hold(Executor& run, const StepView<T>& step, const HeldView& held, HeldPart part) {
     run.for_each("gpu: prescribed velocities", held.nodes, HoldKernel<T, kDim>{step, held, part});
   }
+  static void put_back(Executor& run, const StepView<T>& step, double* numbers) {
+    for (int s = 0; s < step.set_count; ++s) {
+      const SetView& set = step.sets[s];
+      run.for_each("gpu: particles that left", set.count, PutBackKernel<T, kDim>{step, set, numbers});
+    }
+  }
   static constexpr bool kStretches = ShapeClass<mpm::Wide<T>>::kStretches;
   static constexpr Passes<T> kPasses = {
       kStretches ? &domains : nullptr,
@@ -87,7 +94,8 @@ struct PassesOf {
       {&load<ShapeClass>, &load<mpm::Dirac>},
       &traction,
       &load_power,
-      &hold};
+      &hold,
+      &put_back};
 };
 
 template <class T, template <class> class ShapeClass>
@@ -117,6 +125,10 @@ void find_held_work(Executor& run, const HeldView& held, double* work) {
 void find_held_shares(Executor& run, const HeldView& held, const std::uint32_t* entry, const double* factor,
                       double* share, long count) {
   run.for_each("gpu: prescribed velocities", count, HeldShareKernel{held, entry, factor, share});
+}
+void copy_faults(Executor& run, const std::uint8_t* fault, const std::uint32_t* id, long count, std::uint8_t* fault_to,
+                 std::uint32_t* id_to) {
+  run.for_each("gpu: particles that left", count, FaultKernel{fault, id, fault_to, id_to});
 }
 void copy_keys(Executor& run, const NodeView& nodes, std::uint64_t* to) {
   run.for_each("gpu: blocks", nodes.blocks, KeyKernel{nodes.key, to});

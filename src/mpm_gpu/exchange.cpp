@@ -1,13 +1,14 @@
 #include "mpm_gpu/exchange.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/mechanics/stress_average.hpp"
-#include "mpm/rules/method_rules.hpp"
+#include "mpm/rules/feature_rules.hpp"
 
 namespace mpm_gpu {
 namespace {
@@ -15,30 +16,9 @@ namespace {
 using mpm::ParticleSet;
 using mpm::SimulationDefinition;
 
-/// A feature, and whether a scene has it.
-struct Feature {
-  bool used;
-  const char* name;
-};
-
-bool any_wall(const SimulationDefinition& d, bool (*is)(mpm::WallKind)) {
-  return std::any_of(d.walls.begin(), d.walls.end(), [is](const auto& wall) { return is(wall.kind); });
-}
-bool any_user_law(const SimulationDefinition& d) {
-  return std::any_of(d.materials.begin(), d.materials.end(),
-                     [](const auto& m) { return std::holds_alternative<mpm::UserLawDefinition>(m.law); });
-}
-bool any_liquid(const SimulationDefinition& d) {
-  return std::any_of(d.materials.begin(), d.materials.end(),
-                     [](const auto& m) { return traits_of(make_law(m)).matter == mpm::Matter::liquid; });
-}
-bool several_fields(const SimulationDefinition& d) {
-  return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
-}
-bool cut_places(const SimulationDefinition& d) {
-  return std::any_of(d.bodies.begin(), d.bodies.end(),
-                     [](const auto& body) { return !body.parts.empty() || !body.surfaces.empty(); });
-}
+/// Features that steps have here, but a whole simulation has not yet: they have a state that no checkpoint holds, or
+/// act beside steps.
+constexpr std::array kOfRuns = {mpm::Feature::frictional_walls, mpm::Feature::liquids, mpm::Feature::leaving};
 
 Face face_of(mpm::WallKind kind) {
   switch (kind) {
@@ -117,8 +97,8 @@ const mpm::DeformableBody& body_of(const SimulationDefinition& d, const std::str
 }
 
 std::vector<mpm::Law> laws_of(const SimulationDefinition& d, const std::vector<ParticleSet>& sets) {
-  const std::string feature = refused(d);
-  if (!feature.empty()) throw GpuError(refusal(feature));
+  const std::string reason = refused(d);
+  if (!reason.empty()) throw GpuError("gpu: " + reason);
   std::vector<mpm::Law> laws;
   for (const ParticleSet& set : sets) {
     if (!set.masses.empty())
@@ -221,45 +201,15 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
 }  // namespace
 
 std::string refused(const SimulationDefinition& d) {
-  const bool solid = d.geometry == mpm::GeometryKind::solid, plane = d.geometry == mpm::GeometryKind::plane_strain;
-  const mpm::Transfer& transfer = d.method.transfer;
-  const Feature features[] = {
-      {!solid && !plane, "this geometry (other than solid and plane_strain)"},
-      {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
-      {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {transfer.mixes() || transfer.every != 1, "a fraction of XPIC in FLIP, or one in some of the steps"},
-      {d.method.average_dilatation, "method.average_dilatation"},
-      {d.method.damping.any(), "method.damping"},
-      {any_user_law(d), "a law of a user's program"},
-      {several_fields(d), "contact of deformable bodies"},
-      {cut_places(d), "a body with a curved surface that cuts particles"},
-      {!d.rigid_bodies.empty() || !d.robots.empty(), "a rigid body or robot"},
-      {any_wall(d,
-                [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing || kind == mpm::WallKind::periodic; }),
-       "an absorbing or periodic face"},
-      {!d.conditions.empty(), "a prescribed velocity"},
-      {!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty(), "a load other than gravity"},
-      {d.sleep.has_value(), "sleep"},
-      {d.bed.has_value(), "a bed that follows bodies"},
-      {!d.transport.quantities.empty(), "transport"},
-      {d.cracks.any(), "a crack"},
-      {!d.volumes.empty(), "a volume that counts material"}};
-  for (const Feature& feature : features) {
-    if (feature.used) return feature.name;
+  const mpm::RunKind kind{1, true};
+  for (const mpm::FeatureRule& rule : mpm::feature_rules()) {
+    const bool of_runs = std::find(kOfRuns.begin(), kOfRuns.end(), rule.beside) != kOfRuns.end();
+    if (rule.feature != mpm::Feature::device || of_runs) continue;
+    if (const auto who = find_feature(rule.beside, d, kind)) {
+      return mpm::BrokenRule{&rule, "", *who}.why() + "; " + rule.remedy;
+    }
   }
   return {};
-}
-
-std::string refusal(const std::string& feature) {
-  return "gpu: " + feature + " does not run there: run the scene on the processor";
-}
-
-std::string refused_in_a_run(const SimulationDefinition& d) {
-  // State of their nodes in the step before is in no checkpoint of a device, and in an edge two have one account.
-  if (any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }))
-    return "a frictional wall in a run";
-  if (any_liquid(d)) return "a liquid, whose volume is corrected,";
-  return d.grid.leave_limit > 0 ? "grid.leave_limit" : "";
 }
 
 template <class T>

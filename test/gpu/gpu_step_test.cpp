@@ -263,10 +263,11 @@ TEST(GpuStep, RefusesByName) {
   SimulationDefinition d = gpu_scenes::falling_block(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
   d.method.update = mpm::UpdateScheme::implicit;
-  EXPECT_EQ(mpm_gpu::refused(d), "method.update implicit");
+  const std::string begin = "steps on a graphics processor and ";
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "implicit steps do not go together: "), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::column(mpm::Precision::float64);
   d.walls[0].kind = mpm::WallKind::absorbing;
-  EXPECT_EQ(mpm_gpu::refused(d), "an absorbing or periodic face");
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "absorbing faces (x_min) "), 0U) << mpm_gpu::refused(d);
   const std::vector<ParticleSet> none;
   EXPECT_THROW(DeviceRun<double>(d, none), mpm_gpu::GpuError);
 }

@@ -105,7 +105,11 @@ bool Simulation::State::step(double start, double dt, bool more) {
 
 void Simulation::State::fetch() {
   if (!device_ahead) return;
-  device->fetch(sets);
+  try {
+    device->fetch(sets);
+  } catch (const ModuleError& error) {
+    throw PhysicsError(error.what());  // with it the particles are lost
+  }
   device_ahead = false;
   moved_by_device = true;
   tell_modules();

@@ -97,7 +97,6 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
             parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
             parameters_.resume);
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
-  if (!run_->device_note().empty()) ROS_INFO_STREAM(run_->device_note());
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
 
   diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.keep_house(); });
@@ -248,6 +247,7 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   pacer_->set_period(run_->simulation().sync_period());
   ++runs_;  // names the next bag
   record_lost_ = false;
+  if (!run_->device_note().empty()) ROS_INFO_STREAM(run_->device_note());
   if (const std::string note = note_on(run_->outputs().local_frame()); !note.empty()) ROS_INFO_STREAM(note);
   if (const BagRecorder* recorder = run_->recorder()) {
     ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));

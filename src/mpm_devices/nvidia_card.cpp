@@ -1,3 +1,5 @@
+#include <string>
+
 #include "mpm_devices/find_card.hpp"
 #include "mpm_gpu/card.hpp"
 #include "mpm_gpu/device.hpp"
@@ -11,7 +13,8 @@ FoundDevice find_card() {
     found.maker.name = mpm_gpu::card::name();
     return found;
   } catch (const mpm_gpu::GpuError& error) {
-    return {{}, error.what()};
+    const std::string why = error.what(), begin = "gpu: ";  // who asks says that already
+    return {{}, why.rfind(begin, 0) == 0 ? why.substr(begin.size()) : why};
   }
 }
 

@@ -13,7 +13,7 @@ FoundDevice find_card() {
     found.maker.name = mpm_gpu::card::name();
     return found;
   } catch (const mpm_gpu::GpuError& error) {
-    const std::string why = error.what(), begin = "gpu: ";  // who asks says that already
+    const std::string why = error.what(), begin = "gpu: ";  // a prefix that the option has in its place
     return {{}, why.rfind(begin, 0) == 0 ? why.substr(begin.size()) : why};
   }
 }

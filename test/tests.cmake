@@ -70,17 +70,18 @@ if(MPM_ROBOTS AND DART_FOUND)
   target_precompile_headers(robots_tests REUSE_FROM test_pages)
 endif()
 # Every two features that go together.
-mpm_add_gtests(pairs mpm_study test_pages test_ranks)
+mpm_add_gtests(pairs mpm_gpu mpm_study test_pages test_ranks)
 target_precompile_headers(pairs_tests REUSE_FROM test_pages)
 mpm_add_gtests(stability mpm_study test_pages)
 target_precompile_headers(stability_tests REUSE_FROM test_pages)
-# Steps for a graphics processor run here in loops on this one; nothing else is built with them.
+# Steps for a graphics processor run here in loops on this one.
 include(src/mpm_gpu/gpu.cmake)
 mpm_add_gtests(gpu mpm_gpu test_pages)
 set_source_files_properties(test/gpu/gpu_allocation_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_precompile_headers(gpu_tests REUSE_FROM test_pages)
 if(bridge_sources)
-  mpm_add_gtests(bridge mpm_ros_bridge test_ranks)
+  mpm_add_gtests(bridge mpm_ros_bridge mpm_gpu test_ranks)
+  target_sources(bridge_tests PRIVATE src/mpm_devices/no_card.cpp)  # what a build without cards says, whichever this one is
   target_precompile_headers(bridge_tests PRIVATE ${common_headers} ${ros_headers} <gtest/gtest.h>)
 endif()
 

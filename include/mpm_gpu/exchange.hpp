@@ -1,5 +1,5 @@
 // From a run of the solver to one of this library, and back: the same scene runs on both. What this library does not
-// have is refused by name.
+// have is refused by the table of features (mpm/rules/feature_rules.hpp).
 #pragma once
 
 #include <string>
@@ -14,12 +14,9 @@
 
 namespace mpm_gpu {
 
-/// The first feature of a scene that does not run there, by the scene's words; empty where all does.
+/// The sentence of the table that refuses a scene's steps there; empty where they run. It leaves out what steps can,
+/// but a whole simulation cannot have yet.
 std::string refused(const mpm::SimulationDefinition& definition);
-/// The same of what steps can, but a whole simulation cannot have there yet.
-std::string refused_in_a_run(const mpm::SimulationDefinition& definition);
-/// Sentence that refuses such a feature, with the remedy.
-std::string refusal(const std::string& feature);
 
 /// A run of this library that begins with the particles of a simulation, and its laws.
 template <class T>

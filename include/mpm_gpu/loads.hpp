@@ -16,9 +16,6 @@
 
 namespace mpm_gpu {
 
-/// True if the value of a load can be found there.
-bool can_load(const std::array<mpm::Function, 3>& value);
-
 template <class T>
 class Loads final : public Stage<T> {
  public:

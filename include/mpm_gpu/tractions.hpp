@@ -13,9 +13,6 @@
 
 namespace mpm_gpu {
 
-/// True if it can act there, with this shape function.
-bool can_act(const mpm::TractionDefinition& traction, mpm::ShapeKind shape);
-
 template <class T>
 class Tractions {
  public:

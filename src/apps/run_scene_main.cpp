@@ -13,6 +13,7 @@
 
 #include "mpm/sections/all_keys.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm_devices/find_card.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_robots/robots.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
@@ -52,6 +53,7 @@ int main(int argc, char** argv) {
   mpm::provide_robots();
   mpm_ros::spin_only_briefly(argv);
   mpm_ros::RunSceneOptions options;
+  options.device.find = mpm::find_card;
   bool list = false;
   bool explain = false;
   std::string keys;
@@ -79,6 +81,11 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 1024));
   app.add_option("--isa", options.isa,
                  "instruction set of the kernels: plain, avx2 or avx512; auto: the widest one available");
+  app.add_option(
+         "--device", options.device.word,
+         "processor that takes the steps: cpu, this one; gpu, a graphics processor; auto: that where there is one "
+         "and the scene can run on it, else this one")
+      ->capture_default_str();
   app.add_option("--end", options.end, "stop at this time, in seconds or with a unit (\"20 ms\")");
   app.add_option("--set", options.set, "change the scene: key.path=value, as in grid.cell=0.02; may be repeated")
       ->allow_extra_args(false);

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "mpm/simulation/rank_failure.hpp"
+#include "mpm_devices/find_card.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_robots/robots.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
@@ -56,6 +57,7 @@ std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSource
   }
   std::vector<std::string> warnings;
   mpm_ros::NodeParameters parameters = mpm_ros::read_parameters(values, warnings);
+  mpm_ros::look_for_device(parameters, mpm::find_card, ranks ? ranks->size() : 1);
   if (ranks && parameters.threads == 0) parameters.threads = mpm::threads_of_rank(*ranks);
   for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
   mpm_ros::SimulatorNode::check_neighbours(ros::NodeHandle(), parameters);

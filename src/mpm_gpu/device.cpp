@@ -116,11 +116,6 @@ class RunDevice final : public mpm::Device {
 
 mpm::DeviceMaker device_by(Executor executor) {
   mpm::DeviceMaker maker;
-  maker.refused = [](const mpm::SimulationDefinition& definition) -> std::string {
-    std::string feature = refused(definition);
-    if (feature.empty()) feature = refused_in_a_run(definition);
-    return feature.empty() ? "" : refusal(feature);
-  };
   maker.make = [executor](const mpm::SimulationDefinition& definition, const std::vector<ParticleSet>& sets,
                           mpm::RunModules modules) {
     return mpm::with_precision(definition.method.precision, [&](auto zero) -> std::unique_ptr<mpm::Device> {

@@ -1,15 +1,14 @@
 #include "mpm_gpu/exchange.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "mpm/contact/thin_tool.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/mechanics/stress_average.hpp"
-#include "mpm/rules/method_rules.hpp"
-#include "mpm_gpu/loads.hpp"
+#include "mpm/rules/feature_rules.hpp"
 #include "mpm_gpu/stages.hpp"
 
 namespace mpm_gpu {
@@ -18,46 +17,9 @@ namespace {
 using mpm::ParticleSet;
 using mpm::SimulationDefinition;
 
-/// A feature, and whether a scene has it.
-struct Feature {
-  bool used;
-  const char* name;
-};
-
-bool any_wall(const SimulationDefinition& d, bool (*is)(mpm::WallKind)) {
-  return std::any_of(d.walls.begin(), d.walls.end(), [is](const auto& wall) { return is(wall.kind); });
-}
-bool any_user_law(const SimulationDefinition& d) {
-  return std::any_of(d.materials.begin(), d.materials.end(),
-                     [](const auto& m) { return std::holds_alternative<mpm::UserLawDefinition>(m.law); });
-}
-bool any_liquid(const SimulationDefinition& d) {
-  return std::any_of(d.materials.begin(), d.materials.end(),
-                     [](const auto& m) { return traits_of(make_law(m)).matter == mpm::Matter::liquid; });
-}
-bool any_tool(const SimulationDefinition& d, bool (*is)(const mpm::RigidBodyDefinition&, const SimulationDefinition&)) {
-  return std::any_of(d.rigid_bodies.begin(), d.rigid_bodies.end(), [&](const auto& body) { return is(body, d); });
-}
-bool several_fields(const SimulationDefinition& d) {
-  return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return body.field != 0; });
-}
-
-bool cut_places(const SimulationDefinition& d) {
-  return std::any_of(d.bodies.begin(), d.bodies.end(), [](const auto& body) { return !body.parts.empty(); });
-}
-bool any_load(const SimulationDefinition& d) {
-  return !d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty();
-}
-bool damping_of_place(const mpm::DampingDefinition& damping) {
-  return damping.grid.uses_place() || damping.particle.uses_place() || damping.pic.uses_place();
-}
-
-bool load_of_place(const SimulationDefinition& d) {
-  const auto of_force = [](const auto& load) { return !can_load(load.force); };
-  const auto of_body = [](const auto& load) { return !can_load(load.acceleration); };
-  return std::any_of(d.body_forces.begin(), d.body_forces.end(), of_body) ||
-         std::any_of(d.particle_forces.begin(), d.particle_forces.end(), of_force);
-}
+/// Features that steps have here, but a whole simulation has not yet: they have a state that no checkpoint holds, or
+/// act beside steps.
+constexpr std::array kOfRuns = {mpm::Feature::frictional_walls, mpm::Feature::liquids};
 
 Face face_of(mpm::WallKind kind) {
   switch (kind) {
@@ -141,8 +103,8 @@ const mpm::DeformableBody& body_of(const SimulationDefinition& d, const std::str
 }
 
 std::vector<mpm::Law> laws_of(const SimulationDefinition& d, const std::vector<ParticleSet>& sets) {
-  const std::string feature = refused(d);
-  if (!feature.empty()) throw GpuError(refusal(feature));
+  const std::string reason = refused(d);
+  if (!reason.empty()) throw GpuError("gpu: " + reason);
   std::vector<mpm::Law> laws;
   for (const ParticleSet& set : sets) laws.push_back(make_law(find_material(d, body_of(d, set.name))));
   return laws;
@@ -256,52 +218,15 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
 }  // namespace
 
 std::string refused(const SimulationDefinition& d) {
-  const bool solid = d.geometry == mpm::GeometryKind::solid, plane = d.geometry == mpm::GeometryKind::plane_strain;
-  const Feature features[] = {
-      {!solid && !plane, "this geometry (other than solid and plane_strain)"},
-      {!shape_of(d.method.shape), "method.shape_function other than ugimp, ugimp_stretch, bspline2 and bspline3"},
-      {d.method.update == mpm::UpdateScheme::implicit, "method.update implicit"},
-      {d.method.average_dilatation, "method.average_dilatation"},
-      {damping_of_place(d.method.damping), "method.damping as a function of place"},
-      {any_user_law(d), "a law of a user's program"},
-      {several_fields(d), "contact of deformable bodies"},
-      {any_tool(d, [](const mpm::RigidBodyDefinition& body, const SimulationDefinition&) { return body.particles; }),
-       "a rigid body made of particles"},
-      {any_tool(d,
-                [](const mpm::RigidBodyDefinition& body, const SimulationDefinition& scene) {
-                  return has_sides(body, scene.geometry, scene.smallest_cell());
-                }),
-       "a thin tool, whose sides have velocity fields of their own"},
-      {!d.conditions.empty() && (!d.rigid_bodies.empty() || !d.robots.empty()),
-       "a prescribed velocity beside a rigid body"},
-      {any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::absorbing; }), "an absorbing face"},
-      {!d.conditions.empty() && any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }),
-       "a prescribed velocity beside a frictional wall"},
-      {std::any_of(d.tractions.begin(), d.tractions.end(),
-                   [&](const auto& traction) { return !can_act(traction, d.method.shape); }),
-       "a traction that follows a face, is a function of place, or is with another shape function than ugimp"},
-      {any_load(d) && cut_places(d), "a load beside a body whose surface cuts particles"},
-      {load_of_place(d), "a load that is a function of the present place, or of time and the place at the start"},
-      {d.sleep.has_value(), "sleep"},
-      {d.bed.has_value(), "a bed that follows bodies"},
-      {!d.transport.quantities.empty(), "transport"},
-      {d.cracks.any(), "a crack"},
-      {!d.volumes.empty(), "a volume that counts material"}};
-  for (const Feature& feature : features) {
-    if (feature.used) return feature.name;
+  const mpm::RunKind kind{1, true};
+  for (const mpm::FeatureRule& rule : mpm::feature_rules()) {
+    const bool of_runs = std::find(kOfRuns.begin(), kOfRuns.end(), rule.beside) != kOfRuns.end();
+    if (rule.feature != mpm::Feature::device || of_runs) continue;
+    if (const auto who = find_feature(rule.beside, d, kind)) {
+      return mpm::BrokenRule{&rule, "", *who}.why() + "; " + rule.remedy;
+    }
   }
   return {};
-}
-
-std::string refusal(const std::string& feature) {
-  return "gpu: " + feature + " does not run there: run the scene on the processor";
-}
-
-std::string refused_in_a_run(const SimulationDefinition& d) {
-  // State of their nodes in the step before is in no checkpoint of a device, and in an edge two have one account.
-  if (any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }))
-    return "a frictional wall in a run";
-  return any_liquid(d) ? "a liquid, whose volume is corrected," : "";
 }
 
 template <class T>

@@ -1,4 +1,4 @@
-# Makes the library mpm_gpu, of steps as kernels of an index (doc/gpu.md): here for the processor, by the tests alone. Files of
+# Makes the library mpm_gpu, of steps as kernels of an index (doc/gpu.md): here for the processor, by tests alone. Files of
 # lane/ are compiled as the solver's kernels are, as a set of one lane.
 
 file(GLOB lane_sources CONFIGURE_DEPENDS src/mpm_gpu/lane/*.cpp)
@@ -10,9 +10,9 @@ target_link_libraries(mpm_gpu_lane PRIVATE Eigen3::Eigen)
 add_library(mpm_gpu STATIC EXCLUDE_FROM_ALL ${gpu_sources} $<TARGET_OBJECTS:mpm_gpu_lane>)
 target_link_libraries(mpm_gpu PUBLIC mpm PRIVATE mpm_options fmt::fmt OpenMP::OpenMP_CXX)
 
-# Option MPM_GPU: the same for a card, as the library mpm_gpu_cuda.
+# Option MPM_GPU: tests of the same for a card (cmake/devices.cmake).
 if(MPM_GPU)
-  include(src/mpm_gpu/device/card.cmake)
+  include(src/mpm_gpu/device/card_tests.cmake)
 endif()
 
 # What a device would run is compiled for one, by clang alone, where there is any.

@@ -14,13 +14,6 @@ using mpm::Function;
 using mpm::ParticleSet;
 using mpm::Vec3;
 
-bool uses_present_place(const Function& function) {
-  if (!function.uses_place()) return false;
-  const std::vector<std::string> names = mpm::names_in_expression(function.text());
-  return std::any_of(names.begin(), names.end(),
-                     [](const auto& name) { return name == "x" || name == "y" || name == "z"; });
-}
-
 bool differs(const std::array<Function, 3>& value) {
   return std::any_of(value.begin(), value.end(), [](const Function& f) { return f.uses_place(); });
 }
@@ -51,12 +44,6 @@ void each_loaded(const mpm::ParticleLoadTerm& term, const std::vector<ParticleSe
 }
 
 }  // namespace
-
-bool can_load(const std::array<Function, 3>& value) {
-  if (std::any_of(value.begin(), value.end(), uses_present_place)) return false;
-  const auto by_time = [](const Function& f) { return f.uses_time(); };
-  return !differs(value) || std::none_of(value.begin(), value.end(), by_time);
-}
 
 template <class T>
 Loads<T>::Loads(const std::vector<mpm::ParticleLoadTerm>& terms, const std::vector<ParticleSet>& sets,

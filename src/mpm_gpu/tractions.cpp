@@ -8,12 +8,6 @@
 
 namespace mpm_gpu {
 
-bool can_act(const mpm::TractionDefinition& traction, mpm::ShapeKind shape) {
-  const auto by_place = [](const mpm::Function& f) { return f.uses_place(); };
-  return !traction.follows && shape == mpm::ShapeKind::ugimp &&
-         std::none_of(traction.value.begin(), traction.value.end(), by_place);
-}
-
 template <class T>
 Tractions<T>::Tractions(mpm::FaceTractions& stage, const std::vector<mpm::ParticleSet>& sets,
                         const mpm::GridLayout& layout, double across, const Passes<T>& passes)

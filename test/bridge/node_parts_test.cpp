@@ -119,6 +119,7 @@ TEST(NodeParameters, TheTemplateHoldsEveryParameterWithItsDefault) {
   EXPECT_EQ(given.pacing, plain.pacing);
   EXPECT_EQ(given.real_time_factor, plain.real_time_factor);
   EXPECT_EQ(given.isa, plain.isa);
+  EXPECT_EQ(given.device.word, plain.device.word);
   EXPECT_EQ(given.threads, plain.threads);
   EXPECT_EQ(given.record, plain.record);
   EXPECT_EQ(given.record_compression, plain.record_compression);

@@ -301,28 +301,28 @@ TEST(GpuStep, RefusesByName) {
   SimulationDefinition d = gpu_scenes::falling_block(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
   d.method.update = mpm::UpdateScheme::implicit;
-  EXPECT_EQ(mpm_gpu::refused(d), "method.update implicit");
+  const std::string begin = "steps on a graphics processor and ";
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "implicit steps do not go together: "), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::column(mpm::Precision::float64);
   d.walls[0].kind = mpm::WallKind::absorbing;
-  EXPECT_EQ(mpm_gpu::refused(d), "an absorbing face");
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "absorbing faces (x_min) "), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::block_damped(mpm::Precision::float64);
   d.method.damping.grid = mpm::Function::parse("10 * x");
-  EXPECT_EQ(mpm_gpu::refused(d), "method.damping as a function of place");
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "damping that depends on the place "), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::block_loaded(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
-  const char* of_place = "a load that is a function of the present place, or of time and the place at the start";
   for (const char* load : {"x", "X + z", "t * X"}) {
     d.body_forces[0].acceleration[2] = mpm::Function::parse(load, {}, mpm::FunctionPlaces::present_and_start);
-    EXPECT_EQ(mpm_gpu::refused(d), of_place) << load;
+    EXPECT_EQ(mpm_gpu::refused(d).find(begin + "loads that depend on the present place"), 0U) << load;
   }
   d = gpu_scenes::block_traction(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
   d.tractions[0].follows = true;
-  EXPECT_EQ(mpm_gpu::refused(d),
-            "a traction that follows a face, is a function of place, or is with another shape function than ugimp");
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "tractions that follow a face"), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::column_pressed(mpm::Precision::float64);
+  EXPECT_EQ(mpm_gpu::refused(d), "");
   d.walls[0].kind = mpm::WallKind::frictional;
-  EXPECT_EQ(mpm_gpu::refused(d), "a prescribed velocity beside a frictional wall");
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "velocity conditions beside"), 0U) << mpm_gpu::refused(d);
   const std::vector<ParticleSet> none;
   EXPECT_THROW(DeviceRun<double>(d, none), mpm_gpu::GpuError);
 }

@@ -97,6 +97,8 @@ TEST(Endings, BadOverride) { expect_bad_input({kPress, "set:=[grid.cel=0.01]"}, 
 
 TEST(Endings, BadPacing) { expect_bad_input({kPress, "pacing:=fast"}, "~pacing"); }
 
+TEST(Endings, BadDevice) { expect_bad_input({kPress, "device:=cuda"}, "~device: cuda: there is no processor"); }
+
 TEST(Endings, BadParticleField) { expect_bad_input({kPress, "particle_fields:=vxx"}, "vxx"); }
 
 TEST(Endings, BagThatCannotBeWritten) {

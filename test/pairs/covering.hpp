@@ -17,8 +17,9 @@ using Row = std::vector<int>;
 class Covering {
  public:
   /// `choices`: of each factor. `allowed`: whether a row may be; it is asked for rows with one and two choices that are
-  /// not plain, and for those that are put together from allowed pairs.
-  Covering(const std::vector<int>& choices, const std::function<bool(const Row&)>& allowed)
+  /// not plain, and for those that are put together from allowed pairs. `only`: a factor; pairs that are to be covered
+  /// are those of its choices that are not plain. Without it all are.
+  Covering(const std::vector<int>& choices, const std::function<bool(const Row&)>& allowed, int only = -1)
       : choices_(choices), allowed_(allowed) {
     for (const int own : choices_) {
       first_.push_back(all_);
@@ -30,8 +31,9 @@ class Covering {
       row[a] = i;
       row[b] = j;
       const bool goes = allowed_(row);
-      set(a, i, b, j, goes ? kOpen : kRefused);
-      ++(goes ? together_ : refused_);
+      const bool counts = only < 0 || (a == only && i > 0) || (b == only && j > 0);
+      set(a, i, b, j, !goes ? kRefused : counts ? kOpen : kCovered);
+      if (counts) ++(goes ? together_ : refused_);
     });
     each_pair([&](int a, int i, int b, int j) {
       if (at(a, i, b, j) == kOpen) begin_row(a, i, b, j);
@@ -39,7 +41,7 @@ class Covering {
   }
 
   const std::vector<Row>& rows() const { return rows_; }
-  int together() const { return together_; }  ///< number of pairs that are allowed
+  int together() const { return together_; }  ///< number of pairs that are allowed, of those to be covered
   int refused() const { return refused_; }
   /// visit(a, i, b, j): pairs that are allowed, but in no row that is.
   template <class Visit>

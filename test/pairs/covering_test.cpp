@@ -1,5 +1,5 @@
 // The rows of the suite of pairs: every two choices that nothing refuses are in one of them, and what refuses two
-// choices says what to do. Cost: 8 s.
+// choices says what to do. Cost: 9 s.
 #include <array>
 #include <set>
 
@@ -22,22 +22,35 @@ TEST(PairsCovering, HasEveryPairOfThreeFactors) {
   EXPECT_EQ(static_cast<int>(seen.size()), all.together());
 }
 
+TEST(PairsCovering, HasThePairsOfOneFactorAlone) {
+  const Covering one(
+      {2, 3, 4}, [](const Row&) { return true; }, 0);
+  EXPECT_EQ(one.together(), 3 + 4);
+  EXPECT_EQ(one.rows().size(), 4U);
+  for (const Row& row : one.rows()) EXPECT_EQ(row[0], 1);
+}
+
 TEST(PairsCovering, KeepsOutWhatIsRefused) {
   const Covering some({2, 2, 2}, [](const Row& row) { return row[0] == 0 || row[1] == 0; });
   EXPECT_EQ(some.refused(), 1);
   for (const Row& row : some.rows()) EXPECT_TRUE(row[0] == 0 || row[1] == 0);
 }
 
-// Counts: all but 80 of some 2,740 pairs go together; the others are refused by the table of doc/features.md, or are a
+// Counts: all but 104 of 2,817 pairs go together; the others are refused by the table of doc/features.md, or are a
 // word that a shape, a law or implicit steps do not have.
 TEST(PairsCovering, LeavesNoPairOfFeaturesOut) {
-  const Covering all = covering();
-  all.each_left([](int a, int i, int b, int j) {
-    ADD_FAILURE() << factors()[a].choices[i] << " and " << factors()[b].choices[j] << " are in no row";
-  });
-  EXPECT_GT(all.together(), 2600);
-  EXPECT_LT(all.refused(), 90);
-  EXPECT_LT(all.rows().size(), 150U);
+  const std::vector<Covering> all = coverings();
+  int together = 0, refused = 0;
+  for (const Covering& covering : all) {
+    covering.each_left([](int a, int i, int b, int j) {
+      ADD_FAILURE() << factors()[a].choices[i] << " and " << factors()[b].choices[j] << " are in no row";
+    });
+    together += covering.together();
+    refused += covering.refused();
+  }
+  EXPECT_GT(together, 2650);
+  EXPECT_LT(refused, 115);
+  EXPECT_LT(rows_of(all).size(), 150U);
 }
 
 TEST(PairsCovering, AreRefusedWithARemedy) {

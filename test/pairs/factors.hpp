@@ -36,7 +36,8 @@ enum Of {
   load,
   floor_kind,
   damping,
-  leaving
+  leaving,
+  device  ///< the last one: its pairs are covered apart
 };
 
 inline const std::vector<Factor>& factors() {
@@ -61,6 +62,7 @@ inline const std::vector<Factor>& factors() {
       {"floor", {"slip", "rough", "fixed", "absorbing"}},
       {"damping", {"undamped", "grid_damping", "particle_damping"}},
       {"leaving", {"inside", "leave"}},
+      {"device", {"cpu", "gpu"}},
   };
   return all;
 }

@@ -1,9 +1,10 @@
 // Runs of a row's scene and of its twins, and what they have to agree in.
 //
 // The answer of a twin is known from the features alone: a checkpoint in the middle and another number of threads give
-// the same bits; ranks, another place, sleep of a body at rest, heat that expands nothing, faces that move as one, and
-// a tool that meets nothing give the same motion. Runs that add up in another order differ by round-off, which yield
-// and contact let grow over the 48 steps: kAlike is 1e4 times that of a sum.
+// the same bits; ranks, steps by the kernels of a graphics processor (in loops on this one), another place, sleep of a
+// body at rest, heat that expands nothing, faces that move as one, and a tool that meets nothing give the same motion.
+// Runs that add up in another order differ by round-off, which yield and contact let grow over the 48 steps: kAlike is
+// 1e4 times that of a sum.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,14 +13,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "factors.hpp"
 #include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/rules/feature_rules.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm_gpu/device.hpp"
 #include "thread_communicator.hpp"
 
 namespace mpm::pairs {
@@ -87,9 +91,10 @@ inline Outcome outcome_of(Simulation& run) {
 
 /// Runs to the end; with `saved` a file takes over the state in the middle.
 inline Outcome run_of(const std::string& text, int threads = 1, const std::string& saved = {},
-                      Communicator* ranks = nullptr) {
+                      Communicator* ranks = nullptr, bool on_device = false) {
   SimulationOptions options;
   options.threads = threads;
+  if (on_device) options.device = mpm_gpu::device_by();
   if (ranks != nullptr) options.ranks = {ranks, [](Communicator*) {}};
   Simulation run(build(scene_of(text), ranks), options);
   const double before = run.state().energy.balance();
@@ -184,6 +189,10 @@ inline void check_row(const Row& row, const std::string& saved) {
     SCOPED_TRACE("a checkpoint in the middle, and two threads");
     EXPECT_EQ(run_of(text, 2, saved).memory, plain.memory);
   }
+  if (block.has(device)) {
+    SCOPED_TRACE("steps by the kernels of a graphics processor");
+    expect_alike(run_of(text, 1, {}, nullptr, true), plain, part);
+  }
   if (block.has(ranks)) {
     SCOPED_TRACE("two ranks");
     expect_alike(run_over_two_ranks(text), plain, part);
@@ -234,9 +243,12 @@ inline std::string fault_of(const Row& row) {
   const int count = block.has(ranks) ? 2 : 1;
   try {
     SimulationDefinition definition = build(scene_of(block.text()));
-    if (const auto fault = feature_fault(definition, count)) return fault->text;
+    if (const auto fault = feature_fault(definition, {count, block.has(device)})) return fault->text;
     if (count == 1) {
-      Simulation(std::move(definition), {1});
+      SimulationOptions options;
+      options.threads = 1;
+      if (block.has(device)) options.device = mpm_gpu::device_by();
+      Simulation(std::move(definition), options);
       return {};
     }
     run_ranks(count, [&](Communicator& all) {
@@ -251,15 +263,36 @@ inline std::string fault_of(const Row& row) {
   }
 }
 
-inline Covering covering() {
+/// Coverings of the suite: of all factors but the device, and of the device beside each of them. So the scenes of the
+/// first are what they are, whatever a device can do.
+inline std::vector<Covering> coverings() {
+  std::map<Row, bool> known;
+  const auto allowed = [&known](Row row) {
+    row.resize(factors().size(), 0);
+    const auto [place, is_new] = known.try_emplace(row, false);
+    if (is_new) place->second = fault_of(row).empty();
+    return place->second;
+  };
   std::vector<int> choices;
   for (const Factor& factor : factors()) choices.push_back(static_cast<int>(factor.choices.size()));
-  return Covering(choices, [](const Row& row) { return fault_of(row).empty(); });
+  const std::vector<int> without_device(choices.begin(), choices.end() - 1);
+  return {Covering(without_device, allowed), Covering(choices, allowed, device)};
+}
+
+inline std::vector<Row> rows_of(const std::vector<Covering>& coverings) {
+  std::vector<Row> rows;
+  for (const Covering& covering : coverings) {
+    for (Row row : covering.rows()) {
+      row.resize(factors().size(), 0);
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
 }
 
 /// Every row whose number leaves `part` when divided by `parts`.
 inline void check_rows(int part, int parts) {
-  const std::vector<Row> rows = covering().rows();
+  const std::vector<Row> rows = rows_of(coverings());
   const std::string saved = testing::TempDir() + fmt::format("pairs_{}_{}.h5", ::getpid(), part);
   for (std::size_t i = part; i < rows.size(); i += parts) {
     SCOPED_TRACE(fmt::format("row {}: {}", i, Block(rows[i]).name()));

@@ -40,12 +40,19 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::average_stress:
       d.method.average_stress = true;
       break;
+    case Feature::axisymmetric:
+      d.geometry = GeometryKind::axisymmetric;
+      break;
     case Feature::body_laws:
       d.contact.pairs.emplace_back();
       d.contact.pairs.back().second = "bed";
       break;
     case Feature::conditions:
       d.conditions.emplace_back();
+      break;
+    case Feature::conditions_beside_contact:
+      d.conditions.emplace_back();
+      add_body(d);
       break;
     case Feature::contact_at_nodes:
       d.contact.method = ContactMethod::nodes;
@@ -56,10 +63,20 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::collisions:
       add_body(d).collide.emplace();
       break;
+    case Feature::cut_particles:
+      d.bodies[0].parts = {0.5};
+      break;
     case Feature::damping:
       d.method.damping.grid = Function(1.0);
       d.method.damping.in_force = true;
       break;
+    case Feature::damping_of_place:
+      d.method.damping.grid = Function::parse("x");
+      d.method.damping.in_force = true;
+      break;
+    case Feature::device:
+    case Feature::ranks:
+      break;  // a run has them, not a definition
     case Feature::divided_bodies:
       add_body(d).divides = {"bed"};
       break;
@@ -68,6 +85,9 @@ void add(Feature feature, SimulationDefinition& d) {
       break;
     case Feature::free_bodies:
       add_body(d).free.emplace();
+      break;
+    case Feature::frictional_walls:
+      d.walls[4].kind = WallKind::frictional;
       break;
     case Feature::implicit_steps:
       d.method.update = UpdateScheme::implicit;
@@ -78,8 +98,22 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::line:
       d.geometry = GeometryKind::line;
       break;
+    case Feature::liquids:
+      d.materials[0].law = NewtonianFluidDefinition();
+      break;
     case Feature::loads:
       d.body_forces.emplace_back();
+      break;
+    case Feature::loads_beside_cut:
+      d.body_forces.emplace_back();
+      d.bodies[0].parts = {0.5};
+      break;
+    case Feature::loads_of_place:
+      d.body_forces.emplace_back();
+      d.body_forces.back().acceleration[0] = Function::parse("x");
+      break;
+    case Feature::own_laws:
+      d.materials[1].law = UserLawDefinition();
       break;
     case Feature::oblique_biot:
     case Feature::pore_pressure:
@@ -107,7 +141,8 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::point_particles:
       d.method.shape = ShapeKind::dirac;
       break;
-    case Feature::ranks:
+    case Feature::rigid_bodies:
+      add_body(d);
       break;
     case Feature::rings:
       add_body(d).inner_radius = 0.1;
@@ -115,6 +150,9 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::robots:
       d.robots.emplace_back();
       d.robots.back().name = "digger";
+      break;
+    case Feature::sheared_boxes:
+      d.method.shape = ShapeKind::cpdi;
       break;
     case Feature::sleep:
       if (!d.sleep) d.sleep = SleepDefinition{1.0, 1.0, 1.0};
@@ -140,6 +178,13 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::tool_laws:
       add_body(d).friction.adhesion = 1.0;
       break;
+    case Feature::tractions_of_place:
+      d.tractions.emplace_back();
+      d.tractions.back().follows = true;
+      break;
+    case Feature::volumes:
+      d.volumes.emplace_back();
+      break;
   }
 }
 
@@ -157,8 +202,11 @@ SimulationDefinition with(const std::vector<Feature>& features) {
   return d;
 }
 
-int processes(const std::vector<Feature>& features) {
-  return std::find(features.begin(), features.end(), Feature::ranks) == features.end() ? 1 : 2;
+RunKind kind_of(const std::vector<Feature>& features) {
+  const auto has = [&](Feature feature) {
+    return std::find(features.begin(), features.end(), feature) != features.end();
+  };
+  return {has(Feature::ranks) ? 2 : 1, has(Feature::device)};
 }
 
 /// Features that a definition has when it is asked for one of them.
@@ -168,16 +216,33 @@ std::set<Feature> had_by(const std::vector<Feature>& asked) {
   if (has(Feature::sleep_damping)) had.insert(Feature::sleep);
   if (has(Feature::oblique_biot)) had.insert(Feature::pore_pressure);
   if (has(Feature::pore_pressure) || has(Feature::tool_heat)) had.insert(Feature::transport);
-  if (has(Feature::particle_damping)) had.insert(Feature::damping);
+  if (has(Feature::particle_damping) || has(Feature::damping_of_place)) had.insert(Feature::damping);
+  const auto is_of_body = [](Feature feature) {
+    return feature == Feature::collisions || feature == Feature::divided_bodies || feature == Feature::free_bodies ||
+           feature == Feature::particle_tools || feature == Feature::rings || feature == Feature::thin_tools ||
+           feature == Feature::tool_laws || feature == Feature::conditions_beside_contact;
+  };
+  if (std::any_of(asked.begin(), asked.end(), is_of_body)) had.insert(Feature::rigid_bodies);
+  if (has(Feature::conditions_beside_contact)) had.insert(Feature::conditions);
+  if (has(Feature::conditions) && (has(Feature::rigid_bodies) || has(Feature::frictional_walls))) {
+    had.insert(Feature::conditions_beside_contact);
+  }
+  if (has(Feature::loads_beside_cut)) had.insert(Feature::cut_particles);
+  if (has(Feature::loads_beside_cut) || has(Feature::loads_of_place) || has(Feature::tractions_of_place)) {
+    had.insert(Feature::loads);
+  }
+  if (has(Feature::loads) && has(Feature::cut_particles)) had.insert(Feature::loads_beside_cut);
   return had;
 }
 
 /// True for two features of which a definition has one at a time.
 bool exclude_each_other(Feature a, Feature b) {
-  const auto is_geometry = [](Feature feature) {
-    return feature == Feature::line || feature == Feature::plane_stress || feature == Feature::solid;
-  };
-  return a != b && is_geometry(a) && is_geometry(b);
+  const std::vector<std::set<Feature>> choices = {
+      {Feature::axisymmetric, Feature::line, Feature::plane_stress, Feature::solid},
+      {Feature::point_particles, Feature::sheared_boxes},
+      {Feature::frictional_walls, Feature::periodic_axes}};
+  return a != b && std::any_of(choices.begin(), choices.end(),
+                               [&](const auto& choice) { return choice.count(a) > 0 && choice.count(b) > 0; });
 }
 
 // Each feature is found where it was asked for, or is brought by one, and nowhere else; a pair is refused if a row of
@@ -193,14 +258,14 @@ TEST(FeatureRules, RefuseTheirPairsAndNoOthers) {
       const std::set<Feature> had = had_by(pair);
       for (int f = 0; f < kFeatures; ++f) {
         const auto feature = static_cast<Feature>(f);
-        EXPECT_EQ(find_feature(feature, d, processes(pair)).has_value(), had.count(feature) > 0)
+        EXPECT_EQ(find_feature(feature, d, kind_of(pair)).has_value(), had.count(feature) > 0)
             << feature_name(feature) << " of " << feature_name(pair[0]) << ", " << feature_name(pair[1]);
       }
       const auto& rules = feature_rules();
       const bool expected = std::any_of(rules.begin(), rules.end(), [&](const FeatureRule& rule) {
         return had.count(rule.feature) > 0 && had.count(rule.beside) > 0;
       });
-      EXPECT_EQ(feature_fault(d, processes(pair)).has_value(), expected)
+      EXPECT_EQ(feature_fault(d, kind_of(pair)).has_value(), expected)
           << feature_name(pair[0]) << ", " << feature_name(pair[1]);
       refused += expected ? 1 : 0;
     }
@@ -221,25 +286,34 @@ TEST(FeatureRules, LookAtShapesAndMaterialsInUse) {
                 width),
             "scene", {})
             .definition;
-    return find_feature(Feature::thin_tools, d, 1);
+    return find_feature(Feature::thin_tools, d);
   };
   EXPECT_EQ(thin(0.05), "'t'");
   EXPECT_FALSE(thin(0.2));
   SimulationDefinition d = with({Feature::oblique_biot});
-  EXPECT_EQ(find_feature(Feature::oblique_biot, d, 1), "'sand'");
+  EXPECT_EQ(find_feature(Feature::oblique_biot, d), "'sand'");
   d.bodies[0].material = "rock";
-  EXPECT_FALSE(find_feature(Feature::oblique_biot, d, 1));
+  EXPECT_FALSE(find_feature(Feature::oblique_biot, d));
 }
 
 TEST(FeatureRules, NameBothWhyAndWhatToDo) {
   for (const FeatureRule& rule : feature_rules()) {
     const std::vector<Feature> pair = {rule.feature, rule.beside};
-    const auto fault = feature_fault(with(pair), processes(pair));
+    const auto fault = feature_fault(with(pair), kind_of(pair));
     ASSERT_TRUE(fault) << feature_name(rule.feature) << ", " << feature_name(rule.beside);
     for (const char* part : {feature_name(rule.feature), feature_name(rule.beside), rule.reason, rule.remedy}) {
       EXPECT_NE(fault->text.find(part), std::string::npos) << part << " in: " << fault->text;
     }
     EXPECT_EQ(fault->key, feature_key(rule.feature));
+  }
+}
+
+// Each row of steps on a graphics processor says how the scene runs all the same.
+TEST(FeatureRules, NameTheProcessorThatRunsAScene) {
+  for (const FeatureRule& rule : feature_rules()) {
+    EXPECT_NE(rule.beside, Feature::device) << "the device is what is refused";
+    if (rule.feature != Feature::device) continue;
+    EXPECT_NE(std::string(rule.remedy).find("--device cpu"), std::string::npos) << feature_name(rule.beside);
   }
 }
 

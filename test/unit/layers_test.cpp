@@ -81,11 +81,13 @@ TEST(Layers, LibraryIncludesNoRosHeader) {
   for (const auto& include : includes) EXPECT_FALSE(std::regex_match(include.header, ros)) << place(include);
 }
 
-// Steps for a graphics processor are a library of their own, of which the product has no trace.
+// Steps for a graphics processor are a library of their own, which programs reach through mpm_devices.
 TEST(Layers, NothingIncludesStepsForAGraphicsProcessor) {
   for (const char* library : {"mpm", "mpm_ros", "mpm_ranks", "mpm_robots"}) {
-    for (const auto& include : includes_of(library))
+    for (const auto& include : includes_of(library)) {
       EXPECT_NE(include.header.rfind("mpm_gpu/", 0), 0U) << place(include);
+      EXPECT_NE(include.header.rfind("mpm_devices/", 0), 0U) << place(include);
+    }
   }
   const auto own = includes_of("mpm_gpu");
   ASSERT_FALSE(own.empty());

@@ -88,7 +88,7 @@ TEST(RigidRules, LawsOfATool) {
   const auto has_law = [&](const std::function<void(SimulationDefinition&)>& change) {
     SimulationDefinition d = plain;
     change(d);
-    return find_feature(Feature::tool_laws, d, 1).has_value();
+    return find_feature(Feature::tool_laws, d).has_value();
   };
   EXPECT_FALSE(has_law([](auto&) {}));
   EXPECT_TRUE(has_law([](auto& d) { d.rigid_bodies[0].friction.static_coefficient = 0.2; }));

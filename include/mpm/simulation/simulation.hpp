@@ -35,8 +35,15 @@ struct StateSet;
 class SweepBudget;
 
 /// The physics failed (exit code 3): J <= 0, a value that is not finite, a particle outside the domain.
-/// what() names the particle, the step, the place and the likely remedy.
+/// what() names the particle, the step, the place and the likely remedy. Also thrown where a device that has the
+/// particles is lost (SimulationOptions::device): by advance(), and by all that reads them from then on.
 class PhysicsError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A device that is not there, or cannot begin a run, as for lack of memory. what() is one sentence with a remedy.
+class DeviceError : public Error {
  public:
   using Error::Error;
 };
@@ -54,9 +61,8 @@ using AddModules = std::function<void(RunParts&)>;
 
 /// Maker of the processor that takes the steps of a run (step/device.hpp).
 struct DeviceMaker {
-  /// Names what of a scene does not run there, with the remedy; empty where all does. Asked before anything else.
-  std::function<std::string(const SimulationDefinition&)> refused;
-  /// Makes it, from the particles of the assembled run and for its modules.
+  std::string name;  ///< name of the processor in records, as its maker has it
+  /// Makes it, from the particles of the assembled run and for its modules. @throws Error where it cannot take them
   std::function<std::unique_ptr<Device>(const SimulationDefinition&, const std::vector<ParticleSet>&, RunModules)> make;
 };
 
@@ -76,14 +82,15 @@ struct SimulationOptions {
   std::function<bool()> interrupt = {};
   /// Counts where the wall time of steps goes; null: nowhere. It outlives the simulation.
   TimeProfile* profile = nullptr;
-  /// Another processor, which takes all steps; none: this one does. In one process only, and without modules of the
-  /// caller.
+  /// Another processor, which takes all steps; none: this one does. What it cannot have stands in the table of
+  /// features (rules/feature_rules.hpp); nor does it reach modules of the caller. simulation/device_choice.hpp chooses.
   std::optional<DeviceMaker> device = {};
 };
 
 class Simulation {
  public:
-  /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError; StoppedError when asked to stop
+  /// @throws DefinitionError, DeviceError, GridError, IsaError, MaterialError, RigidError; StoppedError when asked to
+  /// stop
   /// Takes over the definition, whose particle data are freed as soon as they have been read.
   explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
   /// Makes the simulation of a scene (scene/scene.hpp), which lies in a layer above: its build() is found where the

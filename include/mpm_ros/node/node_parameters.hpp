@@ -3,11 +3,13 @@
 
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mpm/math/geometry.hpp"
+#include "mpm/simulation/device_choice.hpp"
 #include "mpm_ros/node/parameter_reader.hpp"
 
 namespace mpm_ros {
@@ -44,6 +46,7 @@ struct NodeParameters {
   double real_time_factor = 1.0;            ///< simulated over wall time, > 0
   int threads = 0;                          ///< 0: as many as the machine has
   std::string isa = "auto";                 ///< instruction set; auto: the widest one available
+  mpm::DeviceRequest device;                ///< processor that takes the steps
   std::string record;                       ///< bag to write; empty: none, "auto": named by scene and date
   std::string record_folder;                ///< that relative names of bags start from; empty: the working folder
   std::string record_compression = "none";  ///< none, lz4, bz2
@@ -80,5 +83,8 @@ struct NodeParameters {
 ParameterValues fetch_parameters(const ros::NodeHandle& private_node);
 /// `warnings` gets one line for each name that is not known. @throws ParameterError
 NodeParameters read_parameters(const ParameterValues& values, std::vector<std::string>& warnings);
+/// Gives the node the graphics processors that its program knows, and looks whether there is the one that is asked for.
+/// `ranks`: number of processes. @throws ParameterError
+void look_for_device(NodeParameters& parameters, const std::function<mpm::FoundDevice()>& find, int ranks);
 
 }  // namespace mpm_ros

@@ -172,10 +172,11 @@ class SimulatorNode {
   bool pace_told_ = false;           // true after the pace of a run that nothing paces was told
   std::uint64_t given_up_seen_ = 0;  // last value of Pacer::given_up()
   std::optional<Pacer::Clock::time_point> overload_told_;
-  std::string failure_;       // failure of the present run
-  int failure_code_ = 0;      // exit code that goes with it
-  bool bag_lost_ = false;     // true if the bag of any run was lost
-  bool record_lost_ = false;  // and said so
+  std::string failure_;          // failure of the present run
+  std::string last_checkpoint_;  // from which it could go on; empty: none
+  int failure_code_ = 0;         // exit code that goes with it
+  bool bag_lost_ = false;        // true if the bag of any run was lost
+  bool record_lost_ = false;     // and said so
 };
 
 }  // namespace mpm_ros

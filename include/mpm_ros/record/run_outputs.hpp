@@ -86,6 +86,9 @@ class RunOutputs {
   /// For a run that ends between: writes the last state with its hash, unless sync() did. `failure`: why the run cannot
   /// go on, one line; then the state of the failure is written whole, and marked. Empty: the run was stopped.
   void finish(double real_time_factor, const std::string& failure = {});
+  /// For a run whose state cannot be read any more: writes the solver state that was written last again, with the
+  /// failure.
+  void fail_unread(const std::string& failure);
   /// For the solver states from now on.
   void count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped);
   void count_overruns(std::uint64_t overruns) { overruns_ = overruns; }

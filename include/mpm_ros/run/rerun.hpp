@@ -38,6 +38,9 @@ Rerun rerun_of_first(mpm::Communicator* ranks, Rerun own);
 /// Number of processes that computed the run.
 int recorded_ranks(const RunInfo& info);
 
+/// Name of the device that took the steps; empty: the processor did.
+std::string recorded_device(const RunInfo& info);
+
 /// Check that a run that is made again is the recorded one, to the bit.
 class RerunCheck {
  public:

@@ -12,6 +12,7 @@
 #include "mpm/advice/scene_warnings.hpp"
 #include "mpm/checkpoint/checkpoint.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/device_choice.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/command/joint_command.hpp"
@@ -24,7 +25,8 @@ namespace mpm_ros {
 
 struct RunOptions {
   int threads = 0;
-  std::string isa = "auto";  ///< instruction set; auto: the widest one available
+  std::string isa = "auto";   ///< instruction set; auto: the widest one available
+  mpm::DeviceRequest device;  ///< processor that takes the steps
   OutputOptions output;
   std::string bag;  ///< path to write; empty: none
   BagOptions bag_options;
@@ -41,7 +43,8 @@ struct RunOptions {
 
 class Run {
  public:
-  /// Builds the simulation; opens the bag. `live`: a sink beside the bag, or null; must outlive the run.
+  /// Builds the simulation, on the processor that is asked for; opens the bag. `live`: a sink beside the bag, or null;
+  /// must outlive the run.
   /// @throws mpm::Error for what cannot be simulated, or resumed; BagError
   Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live);
 
@@ -75,8 +78,10 @@ class Run {
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
   /// Writes the last state, and closes the bag. Nothing when done before. @throws BagError
+  /// @throws mpm::PhysicsError where the state is lost with a device; call fail() then.
   virtual void finish();
-  /// The same for the state that a PhysicsError left behind; the last solver state says why, in one line.
+  /// The same for the state that a PhysicsError left behind; the last solver state says why, in one line. Where the
+  /// state is lost that is the last one that was written.
   virtual void fail(const std::string& reason);
   /// Commands that were late, refused and dropped so far, for the solver states.
   void count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped) {
@@ -99,6 +104,12 @@ class Run {
   /// It was stopped between two sync points: its state is of neither, and is not to be saved or told of.
   bool cut_short() const { return cut_short_; }
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
+  /// True after fail() if a device had the state and cannot be read any more: nothing more can be told of the run.
+  bool state_lost() const { return state_lost_; }
+  /// Name of the processor that takes the steps where this one does not, else empty.
+  const std::string& device() const { return steps_by_.device; }
+  /// One line on its choice, or empty.
+  const std::string& device_note() const { return steps_by_.note; }
   /// Simulated over wall time so far.
   double real_time_factor() const;
   /// Wall time of the run, while not paused [s].
@@ -122,11 +133,12 @@ class Run {
   void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
 
   const mpm::Scene& scene_;
-  const std::string parameters_;
   const int threads_asked_;
   const Stamps stamps_;
   mpm::TimeProfile* const profile_;  ///< as in RunOptions
+  mpm::StepsBy steps_by_;
   mpm::Simulation simulation_;
+  const std::string parameters_;
   const std::int64_t end_;
   std::unique_ptr<BagRecorder> recorder_;
   RunOutputs outputs_;
@@ -150,7 +162,8 @@ class Run {
   };
   Jump jump_;  ///< the last one that was commanded
   bool resumed_ = false;
-  bool cut_short_ = false;  // stopped between two sync points
+  bool cut_short_ = false;   // stopped between two sync points
+  bool state_lost_ = false;  // with the device that had it
   bool closed_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpm/ranks/communicator.hpp"
+#include "mpm/simulation/device_choice.hpp"
 
 namespace mpm_ros {
 
@@ -18,6 +19,7 @@ struct RunSceneOptions {
   std::string end;                       ///< a time in seconds or with a unit; empty: the scene's
   int threads = 0;                       ///< 0: as many as the machine has
   std::string isa = "auto";              ///< instruction set; auto: the widest one available
+  mpm::DeviceRequest device;             ///< processor that takes the steps
   std::string bag;                       ///< path, "auto", or empty for none
   std::string bag_compression = "none";  ///< none, lz4, bz2
   std::string bag_split;         ///< end of a part of the bag: "500 MB", or a simulated time as "10 s"; empty: never

@@ -23,6 +23,9 @@ mpm::Scene with_choice_of(const mpm::Scene& scene, const std::string& path);
 /// @throws mpm::CheckpointError
 void resume_from(const std::string& path, RunOptions& options);
 
+/// Sentence on how a run whose state is lost goes on. `last`: its last checkpoint, or empty. `how`: how one is resumed.
+std::string after_loss(const std::string& last, const std::string& how);
+
 /// Names of files beside a checkpoint: while it is written, and of the state of a failure.
 std::string part_of_checkpoint(const std::string& path);
 std::string failed_checkpoint(const std::string& path);
@@ -38,7 +41,8 @@ class RunSceneCheckpoints {
   /// Call when the run has ended or was stopped. @throws mpm::CheckpointError
   void at_end(Run& run, std::ostream& out);
   /// The run has failed. The file of the last good state stays; that of the failure has _failed in its name. Over
-  /// several ranks there is none: the others may not know of the failure.
+  /// several ranks there is none: the others may not know of the failure. Where the state is lost the last good one is
+  /// named instead.
   void at_failure(Run& run, const std::string& reason, std::ostream& err);
 
  private:
@@ -48,6 +52,7 @@ class RunSceneCheckpoints {
   /// @throws mpm::SceneError
   void make(const std::string& part) const;
   std::string path_;
+  std::string last_;  ///< file of the last good state; empty: there is none yet
   bool over_ranks_ = false;
   std::int64_t period_ = 0;  ///< [ns]; 0: at the end alone
 };

@@ -19,6 +19,8 @@ RunSceneOptions own_part(const RunSceneOptions& options);
 void check_alike(const RunSceneOptions& options, const mpm::Scene& scene);
 /// @throws mpm::SceneError that names the option
 mpm::Isa instruction_set(const RunSceneOptions& options);
+/// Looks whether there is the processor that is asked for. @throws mpm::SceneError that names the option
+void check_device(const RunSceneOptions& options);
 /// The scene, or that of the recording, to the end that was asked for. @throws mpm::Error
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun);
 /// Warning if more threads are asked for than there are processors; else empty.

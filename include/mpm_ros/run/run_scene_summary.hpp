@@ -16,9 +16,10 @@ namespace mpm_ros {
 
 struct RunSummary {
   /// Reads the simulation where it stands. `start`: where the run began. `contacts`: the last reports. `cut_short`: it
-  /// stands between two sync points, and its state is none that a run has. Collective over several ranks.
+  /// stands between two sync points, and its state is none that a run has. `device`: name of the processor that took
+  /// the steps, empty for this one. Collective over several ranks.
   RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
-             const Contacts& contacts, bool cut_short = false);
+             const Contacts& contacts, bool cut_short, const std::string& device);
 
   /// Keys and units as doc/analysis.md lists them; the order of the keys is kept.
   nlohmann::ordered_json json() const;
@@ -29,6 +30,7 @@ struct RunSummary {
   std::optional<mpm::pace::Target> target;  ///< with what was chosen for it
   mpm::SimulationDefinition definition;     ///< particle positions left out
   std::string isa;
+  std::string device;  ///< "cpu", or the name of the processor that took the steps
   int ranks = 1;
   int threads = 0;    ///< threads of each rank
   mpm::Traffic sent;  ///< by all ranks since the start

@@ -65,73 +65,146 @@ bool has_law(const SimulationDefinition& d, const RigidBodyDefinition& tool) {
   return in_pair(d, tool.name) || tool.friction.static_coefficient >= 0.0 || tool.friction.adhesion != 0.0;
 }
 
+Found cut_body(const SimulationDefinition& d) {
+  return named_in(d.bodies, [](const auto& body) { return !body.parts.empty() || !body.surfaces.empty(); });
+}
+
+bool any_load(const SimulationDefinition& d) {
+  return !d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty();
+}
+
+bool uses_present_place(const Function& function) {
+  const std::vector<std::string> names = names_in_expression(function.text());
+  return function.uses_place() && std::any_of(names.begin(), names.end(), [](const std::string& name) {
+           return name == "x" || name == "y" || name == "z";
+         });
+}
+
+/// True for a load whose value at a particle is not the same as at the start of the run, or as at all others.
+bool any_load_of_place(const SimulationDefinition& d) {
+  const auto of_place = [](const std::array<Function, 3>& value) {
+    const auto any = [&](auto is) { return std::any_of(value.begin(), value.end(), is); };
+    return any(uses_present_place) || (any([](const Function& f) { return f.uses_place(); }) &&
+                                       any([](const Function& f) { return f.uses_time(); }));
+  };
+  return std::any_of(d.body_forces.begin(), d.body_forces.end(),
+                     [&](const auto& load) { return of_place(load.acceleration); }) ||
+         std::any_of(d.particle_forces.begin(), d.particle_forces.end(),
+                     [&](const auto& load) { return of_place(load.force); });
+}
+
+/// True for a traction on faces that turn or stretch, or that differs between them.
+bool any_traction_of_place(const SimulationDefinition& d) {
+  return std::any_of(d.tractions.begin(), d.tractions.end(), [&](const TractionDefinition& traction) {
+    return traction.follows || d.method.shape != ShapeKind::ugimp ||
+           std::any_of(traction.value.begin(), traction.value.end(), [](const Function& f) { return f.uses_place(); });
+  });
+}
+
 /// Words and key of a feature, and how it is found.
 struct Entry {
   Feature feature;
   const char* name;
   const char* key;
-  Found (*find)(const SimulationDefinition&, int ranks);
+  Found (*find)(const SimulationDefinition&, const RunKind&);
 };
 
 using D = const SimulationDefinition&;
+using R = const RunKind&;
 
 // In the order of Feature.
 constexpr std::array<Entry, kFeatures> kEntries = {{
     {Feature::absorbing_faces, "absorbing faces", "boundaries",
-     [](D d, int) { return wall_of(d, WallKind::absorbing); }},
+     [](D d, R) { return wall_of(d, WallKind::absorbing); }},
     {Feature::apic, "apic", "method.transfer",
-     [](D d, int) { return found_if(d.method.transfer.kind == TransferKind::apic); }},
+     [](D d, R) { return found_if(d.method.transfer.kind == TransferKind::apic); }},
     {Feature::average_dilatation, "averaged dilatation", "method.average_dilatation",
-     [](D d, int) { return found_if(d.method.average_dilatation); }},
+     [](D d, R) { return found_if(d.method.average_dilatation); }},
     {Feature::average_stress, "averaged stress", "method.average_stress",
-     [](D d, int) { return found_if(d.method.average_stress.value_or(false)); }},
+     [](D d, R) { return found_if(d.method.average_stress.value_or(false)); }},
+    {Feature::axisymmetric, "an axisymmetric scene", "geometry",
+     [](D d, R) { return found_if(axisymmetric(d.geometry)); }},
     {Feature::body_laws, "laws of contact between deformable bodies", "contact.pairs",
-     [](D d, int) { return body_with_law(d); }},
+     [](D d, R) { return body_with_law(d); }},
     {Feature::collisions, "rigid bodies that collide", "rigid_bodies",
-     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.collide.has_value(); }); }},
+     [](D d, R) { return named_in(d.rigid_bodies, [](const auto& body) { return body.collide.has_value(); }); }},
     {Feature::conditions, "velocity conditions", "boundaries.conditions",
-     [](D d, int) { return found_if(!d.conditions.empty()); }},
+     [](D d, R) { return found_if(!d.conditions.empty()); }},
+    {Feature::conditions_beside_contact, "velocity conditions beside rigid bodies or frictional walls",
+     "boundaries.conditions",
+     [](D d, R) {
+       const bool contact = !d.rigid_bodies.empty() || wall_of(d, WallKind::frictional).has_value();
+       return found_if(!d.conditions.empty() && contact);
+     }},
     {Feature::contact_at_nodes, "contact at nodes", "contact.method",
-     [](D d, int) { return found_if(d.contact.method == ContactMethod::nodes); }},
-    {Feature::cracks, "cracks", "cracks", [](D d, int) { return found_if(d.cracks.any()); }},
-    {Feature::damping, "damping", "method.damping", [](D d, int) { return found_if(d.method.damping.any()); }},
+     [](D d, R) { return found_if(d.contact.method == ContactMethod::nodes); }},
+    {Feature::cracks, "cracks", "cracks", [](D d, R) { return found_if(d.cracks.any()); }},
+    {Feature::cut_particles, "particles cut by a curved surface", "bodies", [](D d, R) { return cut_body(d); }},
+    {Feature::damping, "damping", "method.damping", [](D d, R) { return found_if(d.method.damping.any()); }},
+    {Feature::damping_of_place, "damping that depends on the place", "method.damping",
+     [](D d, R) {
+       const DampingDefinition& damping = d.method.damping;
+       return found_if(damping.grid.uses_place() || damping.particle.uses_place() || damping.pic.uses_place());
+     }},
+    {Feature::device, "steps on a graphics processor", "--device", [](D, R run) { return found_if(run.device); }},
     {Feature::divided_bodies, "bodies that a tool divides", "rigid_bodies",
-     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return !body.divides.empty(); }); }},
+     [](D d, R) { return named_in(d.rigid_bodies, [](const auto& body) { return !body.divides.empty(); }); }},
     {Feature::following_ground, "ground that follows bodies", "terrain",
-     [](D d, int) { return found_if(d.bed.has_value()); }},
+     [](D d, R) { return found_if(d.bed.has_value()); }},
     {Feature::free_bodies, "free bodies", "rigid_bodies",
-     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.free.has_value(); }); }},
+     [](D d, R) { return named_in(d.rigid_bodies, [](const auto& body) { return body.free.has_value(); }); }},
+    {Feature::frictional_walls, "frictional walls", "boundaries",
+     [](D d, R) { return wall_of(d, WallKind::frictional); }},
     {Feature::implicit_steps, "implicit steps", "method.update",
-     [](D d, int) { return found_if(d.method.update == UpdateScheme::implicit); }},
+     [](D d, R) { return found_if(d.method.update == UpdateScheme::implicit); }},
     {Feature::leaving, "particles that leave the grid", "grid.leave",
-     [](D d, int) { return found_if(d.grid.leave_limit > 0); }},
-    {Feature::line, "a line", "geometry", [](D d, int) { return found_if(d.geometry == GeometryKind::line); }},
+     [](D d, R) { return found_if(d.grid.leave_limit > 0); }},
+    {Feature::line, "a line", "geometry", [](D d, R) { return found_if(d.geometry == GeometryKind::line); }},
+    {Feature::liquids, "liquids", "materials",
+     [](D d, R) {
+       return named_in(d.materials, [](const auto& m) { return traits_of(m).matter == Matter::liquid; });
+     }},
     {Feature::loads, "loads", "loads",
-     [](D d, int) { return found_if(!d.body_forces.empty() || !d.particle_forces.empty() || !d.tractions.empty()); }},
+     [](D d, R) { return found_if(any_load(d)); }},
+    {Feature::loads_beside_cut, "loads beside particles cut by a curved surface", "loads",
+     [](D d, R) {
+       return any_load(d) ? cut_body(d) : std::nullopt;
+     }},
+    {Feature::loads_of_place, "loads that depend on the present place, or on time and the place at the start", "loads",
+     [](D d, R) { return found_if(any_load_of_place(d)); }},
     {Feature::oblique_biot, "a Biot coefficient that differs between directions", "transport.pore_pressure",
-     [](D d, int) { return oblique_biot(d); }},
+     [](D d, R) { return oblique_biot(d); }},
+    {Feature::own_laws, "a law of the user's program", "materials",
+     [](D d, R) {
+       const auto is_own = [](const auto& m) { return std::holds_alternative<UserLawDefinition>(m.law); };
+       return named_in(d.materials, is_own);
+     }},
     {Feature::particle_damping, "damping of the particles' velocity", "method.damping",
-     [](D d, int) { return found_if(d.method.damping.in_update()); }},
+     [](D d, R) { return found_if(d.method.damping.in_update()); }},
     {Feature::particle_tools, "rigid bodies made of particles", "rigid_bodies",
-     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.particles; }); }},
-    {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, int) { return periodic_axis(d); }},
+     [](D d, R) { return named_in(d.rigid_bodies, [](const auto& body) { return body.particles; }); }},
+    {Feature::periodic_axes, "periodic axes", "boundaries", [](D d, R) { return periodic_axis(d); }},
     {Feature::plane_stress, "plane stress", "geometry",
-     [](D d, int) { return found_if(d.geometry == GeometryKind::plane_stress); }},
+     [](D d, R) { return found_if(d.geometry == GeometryKind::plane_stress); }},
     {Feature::point_particles, "particles that are points (dirac)", "method.shape",
-     [](D d, int) { return found_if(traits_of(d.method.shape).point()); }},
+     [](D d, R) { return found_if(traits_of(d.method.shape).point()); }},
     {Feature::pore_pressure, "water in pores", "transport.pore_pressure",
-     [](D d, int) { return found_if(d.transport.find(Transported::pore_pressure) != nullptr); }},
-    {Feature::ranks, "several processes", "method.update", [](D, int ranks) { return found_if(ranks > 1); }},
+     [](D d, R) { return found_if(d.transport.find(Transported::pore_pressure) != nullptr); }},
+    {Feature::ranks, "several processes", "method.update", [](D, R run) { return found_if(run.ranks > 1); }},
+    {Feature::rigid_bodies, "rigid bodies", "rigid_bodies",
+     [](D d, R) { return named_in(d.rigid_bodies, [](const auto&) { return true; }); }},
     {Feature::rings, "a ring that opens", "rigid_bodies",
-     [](D d, int) { return named_in(d.rigid_bodies, [](const auto& body) { return body.inner_radius > 0.0; }); }},
+     [](D d, R) { return named_in(d.rigid_bodies, [](const auto& body) { return body.inner_radius > 0.0; }); }},
     {Feature::robots, "robots", "robots",
-     [](D d, int) { return named_in(d.robots, [](const auto&) { return true; }); }},
-    {Feature::sleep, "sleep", "sleep", [](D d, int) { return found_if(d.sleep.has_value()); }},
+     [](D d, R) { return named_in(d.robots, [](const auto&) { return true; }); }},
+    {Feature::sheared_boxes, "boxes that shear (cpdi, qcpdi)", "method.shape",
+     [](D d, R) { return found_if(traits_of(d.method.shape).shears()); }},
+    {Feature::sleep, "sleep", "sleep", [](D d, R) { return found_if(d.sleep.has_value()); }},
     {Feature::sleep_damping, "damping of what falls asleep", "sleep.damping",
-     [](D d, int) { return found_if(d.sleep && d.sleep->damping > 0.0); }},
-    {Feature::solid, "a solid scene", "geometry", [](D d, int) { return found_if(d.geometry == GeometryKind::solid); }},
+     [](D d, R) { return found_if(d.sleep && d.sleep->damping > 0.0); }},
+    {Feature::solid, "a solid scene", "geometry", [](D d, R) { return found_if(d.geometry == GeometryKind::solid); }},
     {Feature::thin_tools, "thin tools, whose sides have velocity fields of their own", "rigid_bodies",
-     [](D d, int) {
+     [](D d, R) {
        // With implicit steps the sides share nodes unless the scene says otherwise.
        const bool shared = d.method.update == UpdateScheme::implicit;
        return named_in(d.rigid_bodies, [&](const auto& body) {
@@ -139,13 +212,17 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
        });
      }},
     {Feature::tool_heat, "heat that a tool exchanges", "transport.temperature.tools",
-     [](D d, int) {
+     [](D d, R) {
        const QuantityDefinition* heat = d.transport.find(Transported::temperature);
        return heat == nullptr || heat->tools.empty() ? std::nullopt : Found(fmt::format("'{}'", heat->tools[0].body));
      }},
     {Feature::tool_laws, "a tool's adhesion, friction at rest or law of its own with a body", "rigid_bodies",
-     [](D d, int) { return named_in(d.rigid_bodies, [&](const auto& body) { return has_law(d, body); }); }},
-    {Feature::transport, "transport", "transport", [](D d, int) { return found_if(!d.transport.quantities.empty()); }},
+     [](D d, R) { return named_in(d.rigid_bodies, [&](const auto& body) { return has_law(d, body); }); }},
+    {Feature::tractions_of_place,
+     "tractions that follow a face or depend on the place, or with another shape than ugimp", "loads",
+     [](D d, R) { return found_if(any_traction_of_place(d)); }},
+    {Feature::transport, "transport", "transport", [](D d, R) { return found_if(!d.transport.quantities.empty()); }},
+    {Feature::volumes, "volumes that count material", "volumes", [](D d, R) { return found_if(!d.volumes.empty()); }},
 }};
 
 constexpr bool in_order() {
@@ -160,6 +237,8 @@ const Entry& entry(Feature feature) { return kEntries[static_cast<std::size_t>(f
 
 constexpr const char* kOneOut = "leave one of the two out";
 constexpr const char* kExplicit = "leave it out, or use method.update: usavg";
+constexpr const char* kOnCpu = "run it with --device cpu";
+constexpr const char* kNoKernel = "there are no kernels for that yet";
 
 }  // namespace
 
@@ -259,33 +338,70 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::transport, Feature::implicit_steps, "implicit steps do not have transport yet", kExplicit},
       {Feature::leaving, Feature::implicit_steps, "implicit steps do not let particles leave yet", kExplicit},
       {Feature::ranks, Feature::implicit_steps, "implicit steps run in one process",
-       "start one process, or write method.update: usavg, also where method: auto has chosen them"}};
+       "start one process, or write method.update: usavg, also where method: auto has chosen them"},
+      {Feature::device, Feature::ranks, "such a processor takes the steps of one process",
+       "start one process, or run it with --device cpu"},
+      {Feature::device, Feature::axisymmetric, kNoKernel, kOnCpu},
+      {Feature::device, Feature::plane_stress, kNoKernel, kOnCpu},
+      {Feature::device, Feature::line, kNoKernel, kOnCpu},
+      {Feature::device, Feature::point_particles, kNoKernel, "use another shape, such as ugimp, or --device cpu"},
+      {Feature::device, Feature::sheared_boxes, kNoKernel, "use another shape, such as ugimp, or --device cpu"},
+      {Feature::device, Feature::implicit_steps, kNoKernel,
+       "run it with --device cpu, or write method.update: usavg, also where method: auto has chosen them"},
+      {Feature::device, Feature::average_dilatation, kNoKernel, kOnCpu},
+      {Feature::device, Feature::own_laws, "its code is not in the kernels of such a processor", kOnCpu},
+      {Feature::device, Feature::body_laws, "all bodies are in one velocity field there", kOnCpu},
+      {Feature::device, Feature::absorbing_faces, kNoKernel, kOnCpu},
+      {Feature::device, Feature::sleep, kNoKernel, kOnCpu},
+      {Feature::device, Feature::following_ground, kNoKernel, kOnCpu},
+      {Feature::device, Feature::transport, kNoKernel, kOnCpu},
+      {Feature::device, Feature::cracks, kNoKernel, kOnCpu},
+      {Feature::device, Feature::volumes, kNoKernel, kOnCpu},
+      {Feature::device, Feature::frictional_walls, "how such a wall held its nodes is in no checkpoint there yet",
+       kOnCpu},
+      {Feature::device, Feature::liquids, "their volume is corrected, for which there is no kernel there yet", kOnCpu},
+      {Feature::device, Feature::particle_tools, "contact is not found from volumes there yet", kOnCpu},
+      {Feature::device, Feature::thin_tools, "all material is in one velocity field there",
+       "write sides: one for the tool, or run it with --device cpu"},
+      {Feature::device, Feature::conditions_beside_contact, "conditions do not act after contact there yet", kOnCpu},
+      {Feature::device, Feature::damping_of_place, "it would be read for each node and particle in each step", kOnCpu},
+      {Feature::device, Feature::loads_of_place, "they would be read for each particle in each step", kOnCpu},
+      {Feature::device, Feature::loads_beside_cut, "loads know particles of one mass there", kOnCpu},
+      {Feature::device, Feature::tractions_of_place, "there are no kernels for such faces yet", kOnCpu}};
   return kRules;
 }
 
 const char* feature_name(Feature feature) { return entry(feature).name; }
 const char* feature_key(Feature feature) { return entry(feature).key; }
 
-std::optional<std::string> find_feature(Feature feature, const SimulationDefinition& definition, int ranks) {
-  return entry(feature).find(definition, ranks);
+std::optional<std::string> find_feature(Feature feature, const SimulationDefinition& definition, const RunKind& run) {
+  return entry(feature).find(definition, run);
 }
 
-std::optional<MethodFault> feature_fault(const SimulationDefinition& definition, int ranks,
-                                         std::optional<Feature> coming) {
+std::string BrokenRule::why() const {
+  const auto named = [](const std::string& by) { return by.empty() ? by : " (" + by + ")"; };
+  return fmt::format("{}{} and {}{} do not go together: {}", feature_name(rule->feature), named(who),
+                     feature_name(rule->beside), named(who_beside), rule->reason);
+}
+
+std::optional<BrokenRule> broken_rule(const SimulationDefinition& definition, const RunKind& run,
+                                      std::optional<Feature> coming) {
   const auto find = [&](Feature feature) {
-    return feature == coming ? Found("") : find_feature(feature, definition, ranks);
+    return feature == coming ? Found("") : find_feature(feature, definition, run);
   };
   for (const FeatureRule& rule : feature_rules()) {
     const Found own = find(rule.feature);
     if (!own) continue;
-    const Found other = find(rule.beside);
-    if (!other) continue;
-    const auto named = [](const std::string& who) { return who.empty() ? who : " (" + who + ")"; };
-    return MethodFault{feature_key(rule.feature),
-                       fmt::format("{}{} and {}{} do not go together: {}; {}", feature_name(rule.feature), named(*own),
-                                   feature_name(rule.beside), named(*other), rule.reason, rule.remedy)};
+    if (const Found other = find(rule.beside)) return BrokenRule{&rule, *own, *other};
   }
   return {};
+}
+
+std::optional<MethodFault> feature_fault(const SimulationDefinition& definition, const RunKind& run,
+                                         std::optional<Feature> coming) {
+  const auto broken = broken_rule(definition, run, coming);
+  if (!broken) return {};
+  return MethodFault{feature_key(broken->rule->feature), broken->why() + "; " + broken->rule->remedy};
 }
 
 }  // namespace mpm

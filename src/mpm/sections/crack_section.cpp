@@ -109,7 +109,7 @@ void read_cracks(const Map& root, Scene& scene) {
   const auto section = root.find("cracks");
   if (!section) return;
   SimulationDefinition& definition = scene.definition;
-  if (const auto fault = feature_fault(definition, 1, Feature::cracks)) fail_at(root, *fault);
+  if (const auto fault = feature_fault(definition, {}, Feature::cracks)) fail_at(root, *fault);
   CracksDefinition& cracks = definition.cracks;
   const Map map = read_keys(*section, cracks_keys(), cracks);
   if (const auto laws = map.find("traction_laws")) read_laws(*laws, cracks);

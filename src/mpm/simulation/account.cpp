@@ -100,7 +100,7 @@ std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
 Vec3 Simulation::State::momentum() {
   if (device) {
     Vec3 total = Vec3::Zero();
-    for (std::size_t s = 0; s < sets.size(); ++s) total += device->sums(static_cast<int>(s)).momentum;
+    for (std::size_t s = 0; s < sets.size(); ++s) total += device_sums(static_cast<int>(s)).momentum;
     return total;
   }
   Vec3 total = sum_particles(
@@ -151,8 +151,16 @@ MaterialTotals& MaterialTotals::operator+=(const MaterialTotals& other) {
   return *this;
 }
 
+Device::Sums Simulation::State::device_sums(int set) {
+  try {
+    return device->sums(set);
+  } catch (const ModuleError& error) {
+    throw PhysicsError(error.what());  // with the device the particles are lost
+  }
+}
+
 MaterialTotals Simulation::State::totals_of_device(int set) {
-  const Device::Sums sums = device->sums(set);
+  const Device::Sums sums = device_sums(set);
   return {sums.kinetic, -definition.gravity.dot(sums.place), sums.elastic, sums.plastic, sums.carried, sums.min_j};
 }
 

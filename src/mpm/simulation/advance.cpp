@@ -108,7 +108,11 @@ bool Simulation::State::step(double start, double dt, bool more) {
 
 void Simulation::State::fetch(Device::Numbers which) {
   if (fetched >= which) return;
-  device->fetch(sets, which);
+  try {
+    device->fetch(sets, which);
+  } catch (const ModuleError& error) {
+    throw PhysicsError(error.what());  // with it the particles are lost
+  }
   fetched = which;
   moved_by_device = true;
   tell_modules();
@@ -126,7 +130,11 @@ void Simulation::State::hand_to_device(const DeviceMaker& maker) {
 }
 
 void Simulation::State::tell_modules() {
-  device->tell_modules();
+  try {
+    device->tell_modules();
+  } catch (const ModuleError& error) {
+    throw PhysicsError(error.what());
+  }
   for (Module* module : modules.list()) {
     if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
     if (auto* axes = dynamic_cast<PeriodicAxes*>(module)) axes->count(device->take_carried());

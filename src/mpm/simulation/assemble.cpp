@@ -37,13 +37,13 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-void check(const SimulationDefinition& d, int ranks) {
+void check(const SimulationDefinition& d, const RunKind& run) {
   if (d.time.sync <= 0) throw DefinitionError("time.sync must be a positive number of nanoseconds");
   if (const auto fault = keys_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
-  if (const auto fault = feature_fault(d, ranks)) {
+  if (const auto fault = feature_fault(d, run)) {
     throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
   }
   if (const auto fault = implicit_fault(d)) {
@@ -79,6 +79,15 @@ void project(FreeDefinition& free, GeometryKind geometry) {
     if (!free.present[3 + axis]) free.velocity.angular[axis] = free.wrench.torque[axis] = 0.0;
   }
   for (int k = 0; k < 6; ++k) free.axes[k] = free.axes[k] && free.present[k];
+}
+
+template <class Begin>
+void begin_on_device(const Begin& begin) {
+  try {
+    begin();
+  } catch (const Error& error) {
+    throw DeviceError(error.what());
+  }
 }
 
 // Leaves only what is along the grid's axes.
@@ -224,13 +233,11 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller, bo
 
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  agree<DefinitionError>(options.ranks.get(), [&] { check(given, options.ranks ? options.ranks->size() : 1); });
-  if (options.device && (options.ranks || !options.modules.empty())) {
-    throw DefinitionError(options.ranks ? "steps on another processor are taken in one process: run it without ranks"
-                                        : "steps on another processor do not reach modules of the program");
-  }
-  if (options.device) {
-    if (const std::string reason = options.device->refused(given); !reason.empty()) throw DefinitionError(reason);
+  const RunKind run{options.ranks ? options.ranks->size() : 1, options.device.has_value()};
+  agree<DefinitionError>(options.ranks.get(), [&] { check(given, run); });
+  if (options.device && !options.modules.empty()) {
+    throw DefinitionError(
+        "steps on a graphics processor do not reach modules of the program; run it with --device cpu");
   }
   if (options.threads > kMostThreads) {
     throw DefinitionError(
@@ -320,7 +327,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (s.over) s.over->warn_of_idle(s.sets, s.warnings);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);
-  if (options.device) s.hand_to_device(*options.device);
+  if (options.device) begin_on_device([&] { s.hand_to_device(*options.device); });
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.watch_energy(0.0, s.material_limit);

@@ -162,6 +162,8 @@ struct Simulation::State {
   /// `now` [s]; `found`: what the material allows then. @throws PhysicsError when the run makes energy
   void watch_energy(double now, const StepLimit& found);
   const RunTotals& find_totals();
+  /// @throws PhysicsError when the device is lost
+  Device::Sums device_sums(int set);
   /// Sums over a set's particles, which the device finds.
   MaterialTotals totals_of_device(int set);
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError

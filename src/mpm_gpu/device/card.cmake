@@ -1,6 +1,5 @@
 # Makes the library mpm_gpu_cuda, of steps on a card: files of kernels and launches by clang, CUB's scan and sort by nvcc, the
-# rest by the compiler of all else; and the tests and the benchmark over it. Target gpu_folder puts both and the libraries that
-# they need into the folder gpu/ of the build, for a machine with a card (scripts/test_gpu).
+# rest by the compiler of all else.
 
 find_package(CUDAToolkit 12.0 QUIET)
 if(NOT CUDAToolkit_FOUND OR NOT CUDAToolkit_NVCC_EXECUTABLE)
@@ -48,24 +47,3 @@ set_source_files_properties(${card_objects} ${sort_and_scan} PROPERTIES EXTERNAL
 target_compile_definitions(mpm_gpu_cuda PUBLIC MPM_CUDA)
 target_include_directories(mpm_gpu_cuda SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DIRS})
 target_link_libraries(mpm_gpu_cuda PUBLIC mpm CUDA::cudart_static PRIVATE mpm_options fmt::fmt)
-
-# Tests: that of the executor has kernels of its own.
-set(card_test_objects)
-mpm_compile_for_card(card_test_objects test/gpu/device/cells_test.cu -ffp-contract=off)
-file(GLOB card_tests CONFIGURE_DEPENDS test/gpu/*_test.cpp)
-list(FILTER card_tests EXCLUDE REGEX gpu_cells_test)
-add_executable(gpu_tests_cuda EXCLUDE_FROM_ALL ${card_tests} ${card_test_objects})
-set_source_files_properties(${card_test_objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
-target_link_libraries(gpu_tests_cuda PRIVATE mpm_gpu_cuda test_pages test_main mpm_options)
-
-# The benchmark, and the same over loops on the processor, which shows that it works.
-add_executable(gpu_benchmark EXCLUDE_FROM_ALL benchmark/gpu/gpu_benchmark.cpp)
-target_link_libraries(gpu_benchmark PRIVATE mpm_gpu test_pages mpm_options fmt::fmt)
-add_executable(gpu_benchmark_cuda EXCLUDE_FROM_ALL benchmark/gpu/gpu_benchmark.cpp)
-target_link_libraries(gpu_benchmark_cuda PRIVATE mpm_gpu_cuda test_pages mpm_options fmt::fmt)
-
-add_custom_target(gpu_folder
-  COMMAND ${PROJECT_SOURCE_DIR}/scripts/lib/collect_programs ${CMAKE_CURRENT_BINARY_DIR}/gpu $<TARGET_FILE:gpu_tests_cuda>
-    $<TARGET_FILE:gpu_benchmark_cuda>
-  VERBATIM)
-add_dependencies(gpu_folder gpu_tests_cuda gpu_benchmark_cuda)

@@ -10,6 +10,7 @@
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 #include "mpm_ros/record/output_names.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
 
 namespace mpm_ros {
 
@@ -43,6 +44,7 @@ void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Respons
     const mpm::CheckpointAbout about =
         run_->save(path, [this](mpm::StateArchive& archive) { commands_.serialise(archive); });
     response.state_hash = hash_text(about.state_hash);
+    last_checkpoint_ = from_root(path);
   } catch (const std::exception& error) {
     response.message = refusal_of(error);
     return;
@@ -91,7 +93,8 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
 }
 
 void SimulatorNode::leave_failed_state() {
-  if (!parameters_.checkpoint_on_failure) return;
+  if (run_->state_lost()) ROS_ERROR_STREAM(after_loss(last_checkpoint_, "_resume:=FILE, or load_checkpoint"));
+  if (!parameters_.checkpoint_on_failure || run_->state_lost()) return;
   try {
     const std::filesystem::path bag(run_->recorder() != nullptr ? run_->recorder()->path() : "");
     const std::filesystem::path folder = bag.parent_path();

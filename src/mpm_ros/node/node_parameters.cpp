@@ -86,6 +86,7 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("threads", parameters.threads, 0);
   reader.read("isa", parameters.isa);
   check_isa(parameters.isa);
+  reader.read("device", parameters.device.word);
   reader.read("record", parameters.record);
   reader.read<std::string>("record_compression", parameters.record_compression,
                            {{"none", "none"}, {"lz4", "lz4"}, {"bz2", "bz2"}});
@@ -137,6 +138,15 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   for (const std::string& line : reader.unknown()) warnings.push_back(line);
   parameters.text = to_yaml(values);
   return parameters;
+}
+
+void look_for_device(NodeParameters& parameters, const std::function<mpm::FoundDevice()>& find, int ranks) {
+  parameters.device.find = find;
+  try {
+    mpm::check_device(parameters.device, ranks);
+  } catch (const mpm::DeviceError& error) {
+    throw ParameterError(fmt::format("parameter ~device: {}: {}", parameters.device.word, error.what()));
+  }
 }
 
 }  // namespace mpm_ros

@@ -25,6 +25,7 @@ RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters
   RunOptions options;
   options.threads = parameters.threads;
   options.isa = parameters.isa;
+  options.device = parameters.device;
   options.output = output_options(scene);
   if (parameters.particle_rate) {
     options.output.particle_period = 1.0 / *parameters.particle_rate;

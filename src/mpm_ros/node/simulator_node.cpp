@@ -15,6 +15,7 @@
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/neighbours.hpp"
 #include "mpm_ros/node/node_run.hpp"
+#include "mpm_ros/record/output_names.hpp"
 #include "mpm_ros/run/led_run.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/settling_news.hpp"
@@ -86,8 +87,12 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   // Before the run has a time to keep; the copy that is timed is freed before the run is built.
   first_run.stop = stop_overdue;
   const bool paced = parameters_.pacing == Pacing::real_time;
-  std::optional<ExpectedPace> expected;  // by what steps cost in one process
-  if (!ranks_) expected = expected_pace(subject_->scene, first_run, paced ? parameters_.real_time_factor : 1.0, paced);
+  // By what steps cost on this processor, in one process.
+  std::optional<ExpectedPace> expected;
+  const mpm::DeviceRequest& device = parameters_.device;
+  const bool may_be_elsewhere = device.word != "cpu" && device.find && device.find().missing.empty();
+  if (!ranks_ && !may_be_elsewhere)
+    expected = expected_pace(subject_->scene, first_run, paced ? parameters_.real_time_factor : 1.0, paced);
   start_run(subject_,
             parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
             parameters_.resume);
@@ -237,10 +242,12 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   }
   if (run_) end_run();
   run_ = std::move(run);
+  last_checkpoint_ = resume.empty() ? "" : absolute_path(resume);
   subject_ = subject;
   pacer_->set_period(run_->simulation().sync_period());
   ++runs_;  // names the next bag
   record_lost_ = false;
+  if (!run_->device_note().empty()) ROS_INFO_STREAM(run_->device_note());
   if (const std::string note = note_on(run_->outputs().local_frame()); !note.empty()) ROS_INFO_STREAM(note);
   if (const BagRecorder* recorder = run_->recorder()) {
     ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
@@ -393,6 +400,8 @@ void SimulatorNode::end_run() {
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
     bag_lost_ = true;
+  } catch (const mpm::PhysicsError& error) {
+    fail(error.what(), 3);
   }
 }
 

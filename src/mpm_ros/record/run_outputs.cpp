@@ -217,6 +217,15 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   sinks_.end_writing();
 }
 
+void RunOutputs::fail_unread(const std::string& failure) {
+  if (finished_) return;
+  finished_ = true;
+  state_.failed = 1;
+  state_.failure = failure;
+  if (sinks_.wanted_anywhere(topics::kSolverState)) sinks_.put(topics::kSolverState, state_);
+  sinks_.end_writing();
+}
+
 void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused, std::uint64_t dropped) {
   late_ = late;
   refused_ = refused;

@@ -19,6 +19,9 @@ namespace {
 void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostream& out) {
   mpm::SimulationDefinition built = mpm::build(scene, nullptr, stop_overdue);
   out << mpm::explain(scene, built);
+  const mpm::DeviceChoice chosen = mpm::choose_device(options.device, built, 1);
+  if (!chosen.note.empty()) out << chosen.note << "\n";
+  if (chosen.maker) out << "note: what follows is timed on this processor; of the other one no forecast is made\n";
   if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
   mpm::pace::StepTimer timer(kTimingBudget, stop_overdue);
   mpm::Simulation simulation(std::move(built),

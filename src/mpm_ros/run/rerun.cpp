@@ -40,6 +40,17 @@ class Reader : public RunVisitor {
   std::optional<std::int64_t> begin_;
 };
 
+/// A value that the run has put beside its parameters.
+template <class Value>
+Value recorded(const RunInfo& info, const char* key, const Value& without) {
+  try {
+    const YAML::Node value = YAML::Load(info.parameters)[key];
+    return value ? value.as<Value>() : without;
+  } catch (const YAML::Exception&) {
+    return without;
+  }
+}
+
 }  // namespace
 
 Rerun read_rerun(const std::string& path, bool resumed) {
@@ -93,14 +104,8 @@ Rerun rerun_of_first(mpm::Communicator* ranks, Rerun own) {
   return own;
 }
 
-int recorded_ranks(const RunInfo& info) {
-  try {
-    const YAML::Node ranks = YAML::Load(info.parameters)["ranks"];
-    return ranks ? ranks.as<int>() : 1;
-  } catch (const YAML::Exception&) {
-    return 1;
-  }
-}
+int recorded_ranks(const RunInfo& info) { return recorded(info, "ranks", 1); }
+std::string recorded_device(const RunInfo& info) { return recorded<std::string>(info, "steps_by", ""); }
 
 void RerunCheck::look(const mpm::Simulation& simulation) {
   if (!comparable() || simulation.time() != rerun_.hashed_at) return;

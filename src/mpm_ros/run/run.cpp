@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "mpm/advice/feasible.hpp"
 #include "mpm/advice/resumed_scene.hpp"
 #include "mpm/implicit/sweep_momentum.hpp"
+#include "mpm/math/json_text.hpp"
 #include "mpm_ros/record/output_names.hpp"
 #include "mpm_ros/record/together.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
@@ -21,25 +23,33 @@ namespace {
 constexpr double kWorthKeeping = 1.0;                  ///< [s] of a run: the cost of its steps serves forecasts
 constexpr std::int64_t kJumpRemembered = 100'000'000;  ///< [ns] after a jump: a failure is told with it
 
+/// Parameters with what the run has beside them.
+std::string with_kind(std::string parameters, const mpm::Communicator* ranks, const std::string& device) {
+  if (ranks != nullptr) parameters += fmt::format("\nranks: {}\n", ranks->size());
+  if (!device.empty()) parameters += fmt::format("\nsteps_by: {}\n", mpm::json_text(nlohmann::json(device)));
+  return parameters;
+}
+
 }  // namespace
 
 Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live) try
     : scene_(scene),
-      parameters_(options.ranks ? fmt::format("{}\nranks: {}\n", options.parameters, options.ranks->size())
-                                : options.parameters),
       threads_asked_(options.threads),
       stamps_(stamps),
       profile_(options.profile),
-      simulation_(mpm::build(scene, options.ranks.get(), options.stop),
-                  mpm::SimulationOptions{options.threads,
-                                         mpm::choose_isa(options.isa),
-                                         options.resume.empty(),
-                                         {},
-                                         options.stop,
-                                         options.settling,
-                                         options.ranks,
-                                         options.stop,
-                                         options.profile}),
+      simulation_(mpm::make_simulation(
+          options.device, [&] { return mpm::build(scene, options.ranks.get(), options.stop); },
+          mpm::SimulationOptions{options.threads,
+                                 mpm::choose_isa(options.isa),
+                                 options.resume.empty(),
+                                 {},
+                                 options.stop,
+                                 options.settling,
+                                 options.ranks,
+                                 options.stop,
+                                 options.profile},
+          steps_by_)),
+      parameters_(with_kind(options.parameters, options.ranks.get(), steps_by_.device)),
       end_(mpm::nanoseconds_of(scene.definition.time.end)),
       outputs_(simulation_, stamps_, options.output),
       places_(scene.definition.rigid_bodies.size(), Place::outside_yet),
@@ -262,9 +272,19 @@ std::string Run::bag() const {
                                  : fmt::format("{} and {} more parts", recorder_->path(), recorder_->parts() - 1);
 }
 
-void Run::finish() { close({}); }
+void Run::finish() {
+  if (!closed_ && !cut_short_ && !steps_by_.device.empty()) simulation_.state();  // throws where it is lost
+  close({});
+}
 
-void Run::fail(const std::string& reason) { close(reason); }
+void Run::fail(const std::string& reason) {
+  try {
+    if (!closed_ && !steps_by_.device.empty()) simulation_.state();
+  } catch (const mpm::PhysicsError&) {
+    state_lost_ = true;  // the reason is that, or what comes of it
+  }
+  close(reason);
+}
 
 void Run::close_record() {
   if (closed_) return;
@@ -276,11 +296,16 @@ void Run::close(const std::string& failure) {
   if (closed_) return;
   closed_ = true;
   // Between two sync points there is no state that could be written.
-  if (!cut_short_) outputs_.finish(real_time_factor(), failure);
+  if (state_lost_) {
+    outputs_.fail_unread(failure);
+  } else if (!cut_short_) {
+    outputs_.finish(real_time_factor(), failure);
+  }
   together<BagError>(simulation_.ranks(), [this] {
     if (recorder_) recorder_->close();
   });
-  const bool whole = !resumed_ && !cut_short_ && failure.empty() && simulation_.ranks() == nullptr;
+  const bool here = simulation_.ranks() == nullptr && steps_by_.device.empty();
+  const bool whole = !resumed_ && !cut_short_ && failure.empty() && here;
   if (whole && wall_seconds() >= kWorthKeeping) keep_reached_pace(scene_, threads_asked_, simulation_);
 }
 

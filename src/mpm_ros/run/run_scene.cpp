@@ -54,6 +54,7 @@ class OfflineRun {
     run_options.ranks = options_.ranks;
     if (options_.profile) run_options.profile = &profile_;
     run_options.isa = options_.isa;
+    run_options.device = options_.device;
     run_options.output = output_options(scene_);
     check_fields(run_options.output);
     run_options.stop = stop_overdue;
@@ -71,6 +72,7 @@ class OfflineRun {
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, nullptr);
     if (rerun_ && run_->simulation().budget() != nullptr) repeat_cuts();
+    if (rerun_) compare_devices();
     files_.open(*run_);
     if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
       throw mpm::SceneError(fmt::format("--end: '{}' is before the checkpoint's time of {:g} s; write a later one",
@@ -92,6 +94,7 @@ class OfflineRun {
     if (const std::string warning = thread_warning(options_.threads); !warning.empty())
       err << "warning: " << warning << "\n";
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
+    if (!run_->device_note().empty()) err << run_->device_note() << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
       if (scene_.commands[body].frame.empty() || rerun_) continue;  // skips bodies that the recording moves
@@ -171,13 +174,14 @@ class OfflineRun {
         err << "run_scene: " << error.what() << "\n";
         recorded([&] { run_->fail(error.what()); });
         checkpoints_.at_failure(*run_, error.what(), err);
-        if (check_) check_->look(simulation);
+        if (check_ && !run_->state_lost()) check_->look(simulation);
       }
     });
     if (!room) recorded([&] { run_->finish(); });
     recorded([&] { files_.close_csv(); });
     recorded([&] { files_.close_vtk(); });
-    const RunSummary summary(scene_, simulation, start, run_->outputs().contacts(), run_->cut_short());
+    if (run_->state_lost()) return room ? RunSceneResult::physics_failed : RunSceneResult::machine_failed;
+    const RunSummary summary(scene_, simulation, start, run_->outputs().contacts(), run_->cut_short(), run_->device());
     out << summary.text();
     if (!files_.write_summary(summary, err)) room = false;
     if (!failed && !files_.write_terrain(simulation, out, err)) room = false;
@@ -239,6 +243,13 @@ class OfflineRun {
     run_->simulation().repeat_cuts(rerun_->cuts);
     notes_.push_back(fmt::format("time.budget: the sweeps of {} step{} end as recorded, whatever time they take",
                                  rerun_->cuts.size(), rerun_->cuts.size() == 1 ? "" : "s"));
+  }
+
+  void compare_devices() {
+    const std::string recorded = recorded_device(rerun_->info);
+    const auto named = [](const std::string& device) { return device.empty() ? "the processor" : device; };
+    if (recorded != run_->device())
+      check_->differs(fmt::format("steps by {} in place of {}", named(run_->device()), named(recorded)));
   }
 
   bool save_last(std::ostream& out, std::ostream& err) {

@@ -51,6 +51,12 @@ void resume_from(const std::string& path, RunOptions& options) {
                                     mpm::seconds_of(about.time));
 }
 
+std::string after_loss(const std::string& last, const std::string& how) {
+  const std::string lost = "the state of the run is lost with the graphics processor; ";
+  if (last.empty()) return lost + "no checkpoint was saved from which it could go on";
+  return lost + fmt::format("the last checkpoint is {}, from which it goes on ({})", last, how);
+}
+
 std::string part_of_checkpoint(const std::string& path) { return path + ".part"; }
 
 std::string failed_checkpoint(const std::string& path) {
@@ -59,7 +65,7 @@ std::string failed_checkpoint(const std::string& path) {
 }
 
 RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period)
-    : path_(options.checkpoint), over_ranks_(options.ranks != nullptr) {
+    : path_(options.checkpoint), last_(options.resume), over_ranks_(options.ranks != nullptr) {
   if (!options.checkpoint_every.empty()) {
     if (path_.empty()) throw mpm::SceneError("--checkpoint-every: name the file too, with --checkpoint run.h5");
     double period = 0.0;
@@ -118,6 +124,7 @@ void RunSceneCheckpoints::at_sync(Run& run, std::ostream& err) {
   if (period_ == 0 || run.ended() || run.simulation().time() % period_ != 0) return;
   try {
     run.save(path_);
+    last_ = path_;
   } catch (const mpm::CheckpointError& error) {
     err << "warning: " << error.what() << "\n";
   }
@@ -130,6 +137,10 @@ void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
 }
 
 void RunSceneCheckpoints::at_failure(Run& run, const std::string& reason, std::ostream& err) {
+  if (run.state_lost()) {
+    err << "run_scene: " << after_loss(last_, "--resume") << "\n";
+    return;
+  }
   if (path_.empty() || over_ranks_) return;
   const std::string failed = failed_checkpoint(path_);
   try {

@@ -76,8 +76,17 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
   }
 }
 
+void check_device(const RunSceneOptions& options) {
+  try {
+    mpm::check_device(options.device, options.ranks ? options.ranks->size() : 1);
+  } catch (const mpm::DeviceError& error) {
+    throw mpm::SceneError(fmt::format("--device {}: {}", options.device.word, error.what()));
+  }
+}
+
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
+  check_device(options);
   mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.

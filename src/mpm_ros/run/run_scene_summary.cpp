@@ -116,11 +116,12 @@ std::string robot_line(const mpm::RobotReport& robot) {
 }  // namespace
 
 RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
-                       const Contacts& contacts, bool cut_short)
+                       const Contacts& contacts, bool cut_short, const std::string& device)
     : scene(scene.definition.name),
       target(scene.target),
       definition(simulation.definition()),
       isa(simulation.isa()),
+      device(device.empty() ? "cpu" : device),
       ranks(simulation.ranks() == nullptr ? 1 : simulation.ranks()->size()),
       threads(simulation.threads()),
       sent(sent_by_all(simulation.ranks())),
@@ -167,6 +168,7 @@ nlohmann::ordered_json RunSummary::json() const {
   root["peak_memory_bytes"] = peak_memory;
   root["ranks"] = ranks;
   root["threads"] = threads;
+  root["device"] = device;
   if (ranks > 1) {
     root["communication"] = {{"messages", sent.messages},
                              {"bytes", sent.bytes},
@@ -202,10 +204,11 @@ std::string RunSummary::text() const {
   std::string text = fmt::format("{}: {:g} s simulated in {:.3g} s ({:.3g} times real time), {} steps\n", scene,
                                  seconds(), state.wall_seconds, real_time_factor(), state.step.steps);
   text += fmt::format(
-      "  particles {}, {:.3g} million particle-steps a second on {}{} thread{} ({}, {} precision), {:.0f} MB{}\n",
-      state.particles, 1e-6 * particle_steps_per_second(), ranks == 1 ? "" : fmt::format("{} ranks of ", ranks),
-      threads, threads == 1 ? "" : "s", isa, mpm::precision_name(definition.method.precision),
-      1e-6 * static_cast<double>(peak_memory), ranks == 1 ? "" : " at most on a rank");
+      "  particles {}, {:.3g} million particle-steps a second on {}{}{} thread{} ({}, {} precision), {:.0f} MB{}\n",
+      state.particles, 1e-6 * particle_steps_per_second(), device == "cpu" ? "" : device + " and ",
+      ranks == 1 ? "" : fmt::format("{} ranks of ", ranks), threads, threads == 1 ? "" : "s", isa,
+      mpm::precision_name(definition.method.precision), 1e-6 * static_cast<double>(peak_memory),
+      ranks == 1 ? "" : " at most on a rank");
   if (target) {
     text +=
         fmt::format("  target {}: reached {:.2g} of real time, {:.2g} was expected, with an error of the force {}\n",

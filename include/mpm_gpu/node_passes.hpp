@@ -78,13 +78,12 @@ struct ForceKernel {
       free[c] = carries ? to.momentum[c * to.nodes + node] / mass + acceleration[c] * dt : 0.0;
       velocity[c] = free[c];
     }
-    hold_at_end<kDim>(step.grid, to, node, number, velocity);
+    hold_at_end<kDim>(step.grid, to, node, number, mass, velocity);
     for (int c = 0; c < kDim; ++c) {
       const long at = c * to.nodes + node;
       const double change = velocity[c] - free[c];
       to.velocity[at] = velocity[c];
       to.acceleration[at] = acceleration[c] + change / dt;
-      to.held[at] = mass * change;
     }
   }
 };
@@ -106,7 +105,7 @@ struct FirstIncrementKernel {
       const long at = c * to.nodes + node;
       first[c] = !step.settings.from_start ? to.velocity[at] : carries ? to.momentum[at] / mass : 0.0;
     }
-    hold_increment<Dim>(step.grid, to, node, number, first);
+    hold_increment<Dim>(step.grid, to, node, number, 0.0, first);
     for (int c = 0; c < Dim; ++c) to.increment[c * to.nodes + node] = first[c];
   }
 };
@@ -131,17 +130,13 @@ struct IncrementKernel {
                                            for (int c = 0; c < Dim; ++c)
                                              momentum[c] += (part * W::load(step.particles.gradient[c] + p)).v;
                                          });
-    double free[Dim], next[Dim];
-    for (int c = 0; c < Dim; ++c) {
-      free[c] = to.increment[c * to.nodes + node] - momentum[c] / mass;
-      next[c] = free[c];
-    }
-    hold_increment<Dim>(step.grid, to, node, number, next);
+    double next[Dim];
+    for (int c = 0; c < Dim; ++c) next[c] = to.increment[c * to.nodes + node] - momentum[c] / mass;
+    hold_increment<Dim>(step.grid, to, node, number, mass, next);
     for (int c = 0; c < Dim; ++c) {
       const long at = c * to.nodes + node;
       to.increment[at] = next[c];
       to.velocity[at] += next[c];
-      to.held[at] += mass * (next[c] - free[c]);
     }
   }
 };

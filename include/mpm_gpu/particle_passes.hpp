@@ -106,7 +106,7 @@ struct MoveKernel {
     std::uint8_t fault = step.particles.fault[p];
     for (int c = 0; c < Dim; ++c) {
       const int before = nearest_node(in_cells(step.grid, c, step.particles.x[c][p]));
-      advance.template particles<false, false>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
+      advance.template particles<kGains, false>(c, static_cast<int>(p), 1, velocity[c], acceleration[c], W(0.0));
       const double cells = in_cells(step.grid, c, step.particles.next_x[c][p]);
       if (!(cells >= set.lowest[c] && cells <= set.highest[c])) {
         fault |= kOutside;
@@ -115,6 +115,10 @@ struct MoveKernel {
       }
     }
     step.particles.fault[p] = fault;
+    if (!kGains || step.particles.slip == nullptr) return;
+    mpm_kernel::Moved moved{};
+    advance.add_to(moved);
+    step.particles.slip[p] = moved.slip_energy;
   }
 };
 

@@ -22,6 +22,7 @@
 #include "mpm_gpu/cells.hpp"
 #include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/passes.hpp"
+#include "mpm_gpu/wall_account.hpp"
 
 namespace mpm_gpu {
 
@@ -62,14 +63,16 @@ struct Method {
   int terms = 1;                                       ///< number of terms of exp(grad v dt)
 };
 
-/// Impulses on the material since the start [N s], along the grid's axes.
+/// Impulses on the material [N s], along the grid's axes, and energies taken from it [J], since the start.
 struct Impulses {
   /// The wall at a face of the domain, 2 * axis, + 1 for the upper one.
   struct OfFace {
     double impulse[3] = {}, exchanged = 0.0;  ///< exchanged: sum over steps of the size of a step's impulse
+    double friction = 0.0, held = 0.0;        ///< taken by friction; of motion that is held up
   };
   double gravity[3] = {};
   OfFace face[6] = {};
+  double slip = 0.0, averaged = 0.0;  ///< taken by PIC, and by mean stresses
 
   /// Impulse of all walls.
   std::array<double, 3> walls() const {
@@ -102,6 +105,12 @@ class Solver {
   const ParticleStore<T>& particles() const { return store_; }
   const std::vector<SetView>& sets() const { return sets_; }
   const Impulses& impulses() const { return impulses_; }
+  /// For a caller who takes sums away, so that they begin again at zero.
+  Impulses& impulses() { return impulses_; }
+  /// State of the nodes of walls in the last step.
+  const WallHolds& holds() const { return holds_; }
+  WallHolds& holds() { return holds_; }
+  const GridView& grid() const { return grid_; }
   /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
   struct Fastest {
     double rate;  ///< [1/s]; NaN if that of any particle is
@@ -126,27 +135,59 @@ class Solver {
   /// Adds the increments of XPIC and FMPM to the velocity of the nodes.
   void filter(const StepView<T>& now);
   void check();
+  template <int Dim>
   void account(double dt);
-  std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
+  /// Energy that PIC takes is to be counted.
+  bool slips() const { return method_.motion == mpm_kernel::kIncrement && method_.flip != 1.0; }
+  CellTable::Places places() const {
+    return {{store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.id.data()};
+  }
 
   // Sums are constexpr, so that kernels may call them, too.
   /// Sums of the nodes in a step.
   struct OfNodes {
-    double held[6][3], mass;  ///< held: by each face
+    struct OfFace {
+      double given[3];
+      mpm::SurfaceLoss loss;
+    };
+    OfFace face[6];
+    double mass, averaged;
     constexpr OfNodes& operator+=(const OfNodes& other) {
       for (int f = 0; f < 6; ++f) {
-        for (int k = 0; k < 3; ++k) held[f][k] += other.held[f][k];
+        for (int k = 0; k < 3; ++k) face[f].given[k] += other.face[f].given[k];
+        face[f].loss += other.face[f].loss;
       }
       mass += other.mass;
+      averaged += other.averaged;
       return *this;
     }
   };
-  /// Faults of the particles in a step; numbers of the first ones.
+  /// A node's part of them, of which most have no wall.
+  template <int Dim>
+  struct OfNode {
+    const WallAccount<Dim>* walls;
+    long node;
+    bool carries;
+    friend constexpr OfNodes& operator+=(OfNodes& sum, const OfNode& one) {
+      const NodeView& nodes = one.walls->nodes;
+      if (nodes.averaged != nullptr) sum.averaged += nodes.averaged[one.node];
+      if (!one.carries) return sum;
+      sum.mass += nodes.mass[one.node];
+      one.walls->each(one.node, [&](int face, const double* given, const mpm::SurfaceLoss& loss) {
+        for (int k = 0; k < Dim; ++k) sum.face[face].given[k] += given[k];
+        sum.face[face].loss += loss;
+      });
+      return sum;
+    }
+  };
+  /// Faults of the particles in a step, numbers of the first ones; energy that PIC takes.
   struct OfParticles {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
+    double slip = 0.0;
     constexpr OfParticles& operator+=(const OfParticles& other) {
+      slip += other.slip;
       left = left || other.left;
       outside = outside < other.outside ? outside : other.outside;
       inverted = inverted < other.inverted ? inverted : other.inverted;
@@ -192,8 +233,10 @@ class Solver {
   Buffer<std::uint8_t> fault_;
   Buffer<double> place_room_;
   Buffer<T> room_;
-  Buffer<double> mass_, nodal_[4];
-  Buffer<double> increment_;  ///< empty without XPIC and FMPM
+  Buffer<double> mass_, nodal_[3];
+  int held_rows_;
+  Buffer<double> held_, held_more_, left_, averaged_;  ///< those of NodeView; empty where it has none
+  Buffer<double> increment_;                           ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
   Buffer<Momentum> of_momentum_;

@@ -56,6 +56,7 @@ struct SetView {
   double half[3];                ///< half of a particle's box [cells]
   double lowest[3], highest[3];  ///< limits of a centre [cells]
   bool averages;                 ///< the mean stress of a cell is taken
+  std::uint32_t first_id;        ///< ids of the set are those from here on
 };
 
 template <class T>
@@ -73,6 +74,7 @@ struct ParticleView {
   T* domain[3];           ///< stretch of the shape function's box, of the step's start; of one that has it
   std::uint32_t* node;    ///< number of the nearest node in the table
   std::uint8_t* fault;    ///< bits of Fault, in this step
+  double* slip;           ///< energy that PIC takes in this step; null with FLIP alone [J]
 };
 
 /// Findings of a kernel about a particle.
@@ -89,9 +91,15 @@ struct NodeView {
   double* momentum;            ///< [N s]
   double* velocity;            ///< [m/s]
   double* acceleration;        ///< [m/s^2]
-  std::uint8_t* hold;          ///< [face][node], how frictional walls hold (walls.hpp); null if there are none
+  std::uint16_t* hold;         ///< bits of walls.hpp; null where no step needs them of the one before
   double* increment;           ///< increment of XPIC or FMPM that is at work [m/s]
-  double* held;                ///< impulse that walls give in a step [N s]
+  // Numbers of nodes on walls alone, [row][component][node]: a row for the wall at a face of each axis, or one for all
+  // where each axis of a node is held by one wall.
+  int held_rows;
+  double* held;       ///< impulse that walls give in a step [N s]
+  double* held_more;  ///< the same on increments; null without XPIC and FMPM
+  double* left;       ///< velocity that walls leave before increments; null without frictional walls [m/s]
+  double* averaged;   ///< energy that mean stresses take in the cell above a node; null without them [J]
 };
 
 struct StepSettings {

@@ -7,11 +7,11 @@
 
 #include "mpm/modules/with_precision.hpp"
 #include "mpm_gpu/exchange.hpp"
+#include "mpm_gpu/held_nodes.hpp"
 
 namespace mpm_gpu {
 namespace {
 
-using mpm::ImpulseAccount;
 using mpm::ParticleSet;
 using mpm::Vec3;
 
@@ -39,16 +39,28 @@ class RunDevice final : public mpm::Device {
     });
     return fastest;
   }
-  ImpulseAccount take_given(int face) override {
-    const Impulses::OfFace& now = run_->solver().impulses().face[face];
-    Impulses::OfFace& before = told_[face];
-    std::array<double, 3> along{};
-    for (int k = 0; k < 3; ++k) along[k] = now.impulse[k] - before.impulse[k];
-    ImpulseAccount given;
-    given.impulse = in_world(along);
-    given.exchanged = now.exchanged - before.exchanged;
-    before = now;
-    return given;
+  // Sums begin again at zero when they are taken: a run that goes on from a checkpoint has the same bits.
+  OfWall take_wall(int face) override {
+    const Impulses::OfFace now = std::exchange(run_->solver().impulses().face[face], {});
+    OfWall wall;
+    wall.given.impulse = in_world({now.impulse[0], now.impulse[1], now.impulse[2]});
+    wall.given.exchanged = now.exchanged;
+    wall.loss = {now.friction, now.held};
+    return wall;
+  }
+  double take_slip() override { return std::exchange(run_->solver().impulses().slip, 0.0); }
+  double take_averaged() override { return std::exchange(run_->solver().impulses().averaged, 0.0); }
+  mpm::HeldNodes held(int face) const override {
+    mpm::HeldNodes nodes;
+    const Solver<T>& solver = run_->solver();
+    const bool rubs = solver.grid().faces[face] == Face::frictional;
+    // As on the processor, where walls that always hold remember it with USF alone.
+    if (!rubs && definition_.method.update != mpm::UpdateScheme::usf) return nodes;
+    told([&] { nodes = held_nodes(solver.holds(), solver.grid(), layout_, face); });
+    return nodes;
+  }
+  void hold(int face, const mpm::HeldNodes& nodes) override {
+    told([&] { hold_nodes(run_->solver().holds(), run_->solver().grid(), layout_, face, nodes); });
   }
   void fetch(std::vector<ParticleSet>& sets) const override {
     told([&] { run_->write_to(sets); });
@@ -61,7 +73,6 @@ class RunDevice final : public mpm::Device {
   void begin(const std::vector<ParticleSet>& sets) {
     run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_);
-    told_ = {};
   }
   Vec3 in_world(const std::array<double, 3>& along) const {
     Vec3 vector = Vec3::Zero();
@@ -82,7 +93,6 @@ class RunDevice final : public mpm::Device {
   mpm::GridLayout layout_;
   Executor executor_;
   std::unique_ptr<DeviceRun<T>> run_;
-  std::array<Impulses::OfFace, 6> told_{};
 };
 
 }  // namespace

@@ -154,6 +154,7 @@ std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
     view.count = static_cast<std::uint32_t>(set.size());
     view.mass = set.mass;
     view.averages = strain_before(set) != nullptr;
+    view.first_id = set.first_id;
     for (int k = 0; k < 3; ++k) {
       view.half[k] = set.half[k];
       view.lowest[k] = set.lowest[k];
@@ -255,9 +256,6 @@ std::string refusal(const std::string& feature) {
 }
 
 std::string refused_in_a_run(const SimulationDefinition& d) {
-  // State of their nodes in the step before is in no checkpoint of a device, and in an edge two have one account.
-  if (any_wall(d, [](mpm::WallKind kind) { return kind == mpm::WallKind::frictional; }))
-    return "a frictional wall in a run";
   if (any_liquid(d)) return "a liquid, whose volume is corrected,";
   return d.grid.leave_limit > 0 ? "grid.leave_limit" : "";
 }

@@ -35,12 +35,9 @@ class Wall final : public FieldStage {
     return holding(hook, Rank::wall, Rank::wall_again);
   }
 
-  int face() const { return face_; }
-  /// Books what the wall has given where a device takes the steps (step/device.hpp).
-  void count(const ImpulseAccount& given) {
-    account_.impulse += given.impulse;
-    account_.exchanged += given.exchanged;
-  }
+  void count(Device& device) override;
+  void learn(const Device& device) override;
+  void teach(Device& device) const override;
 
   void momentum_gathered(FieldContext& context) override;
   void before_strain(FieldContext& context) override;

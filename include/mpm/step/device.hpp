@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/step/coulomb.hpp"
 #include "mpm/step/module.hpp"
+#include "mpm/step/surface_loss.hpp"
 
 namespace mpm {
 
@@ -28,8 +30,19 @@ class Device {
   virtual void make_room() = 0;
   /// `cell`: smallest edge of a cell [m].
   virtual Fastest fastest(int set, double cell) = 0;
-  /// Momentum given since the last call by the wall at a face, 2 * grid axis, + 1 for the upper one.
-  virtual ImpulseAccount take_given(int face) = 0;
+  /// Sums since the last call of the wall at a face, 2 * grid axis, + 1 for the upper one: given, and taken.
+  struct OfWall {
+    ImpulseAccount given;
+    SurfaceLoss loss;
+  };
+  virtual OfWall take_wall(int face) = 0;
+  /// Energy that PIC has taken since the last call, and mean stresses [J].
+  virtual double take_slip() = 0;
+  virtual double take_averaged() = 0;
+  /// Nodes that the wall at a face held in the last step; none where no step needs it of the one before.
+  virtual HeldNodes held(int face) const = 0;
+  /// Goes on from these; after take().
+  virtual void hold(int face, const HeldNodes& nodes) = 0;
   /// Writes the particles as they are now to the host's sets, each to where its id lies.
   virtual void fetch(std::vector<ParticleSet>& sets) const = 0;
   /// Goes on from these particles, in place of its own.

@@ -90,7 +90,7 @@ class LossAtNode {
 /// The same of a surface that holds a node always along an axis, with a slip of 0 and c = -V there.
 struct AxisLoss {
   double taken;   ///< by the start of the step [J]
-  double at_end;  ///< what it takes by the end, over V1 [N s]
+  double at_end;  ///< energy that it takes by the end, over V1 [N s]
 };
 /// `momentum`: gathered at the start of the step; `weight`: times the step; `given`: impulse on the material [N s];
 /// `removed`: velocity that was removed for the strain there [m/s]. With USF, where nothing is gathered any more, all

@@ -6,4 +6,7 @@ __attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x);
 
 namespace std {
 __attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x); }
+// Functions of the energy of laws; law_functions.hpp defines them.
+__attribute__((device)) double log(double x);
+__attribute__((device)) double pow(double x, double y);
 }  // namespace std

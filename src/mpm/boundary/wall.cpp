@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "mpm/step/device.hpp"
+
 namespace mpm {
 
 Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity, int threads,
@@ -190,6 +192,17 @@ void Wall::increment_found(FieldContext& context) {
     if (node.counts) given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
 }
+
+void Wall::count(Device& device) {
+  const Device::OfWall now = device.take_wall(face_);
+  account_.impulse += now.given.impulse;
+  account_.exchanged += now.given.exchanged;
+  loss_ += now.loss;
+}
+
+void Wall::learn(const Device& device) { held_ = device.held(face_); }
+
+void Wall::teach(Device& device) const { device.hold(face_, held_); }
 
 void Wall::grid_advanced(FieldContext&) {
   account_.add(given_);

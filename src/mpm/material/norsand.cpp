@@ -1,5 +1,6 @@
 #include "mpm/material/norsand.hpp"
 
+#include "mpm/material/norsand_energy.hpp"
 #include "mpm/material/opening.hpp"
 #include "mpm/math/constants.hpp"
 
@@ -37,11 +38,6 @@ NorSand::NorSand(const NorSandDefinition& d, double density)
       lode_half_(0.5 * std::pow(least_lode_, -4.0) - 0.5),
       ratio_(d.overconsolidation),
       flow_(largest_flow_stiffness()) {}
-
-double NorSand::volume_energy(double raised) const {
-  const auto integral = [&](double power) { return (std::pow(raised, power) - std::pow(least_, power)) / power; };
-  return (integral(2.0 - exponent_) - least_ * integral(1.0 - exponent_)) / stiffness_;
-}
 
 Symmetric3<double> NorSand::elastic_strain(const StressedPoint& at) const {
   const Symmetric3<double>& cauchy = at.cauchy;

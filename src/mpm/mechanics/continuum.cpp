@@ -10,6 +10,7 @@
 #include "increments.hpp"
 #include "mpm/particles/for_particles.hpp"
 #include "mpm/ranks/of_all.hpp"
+#include "mpm/step/device.hpp"
 
 namespace mpm {
 namespace {
@@ -147,6 +148,7 @@ class Continuum final : public Mechanics {
     }
     if (settings_.damping != nullptr) report.add("damping", NamedEnergy::Kind::dissipated, drag_energy_);
   }
+  void count(Device& device) override { slip_energy_ += device.take_slip(); }
   void hashed(std::vector<double>& numbers) const override {
     if (settings_.transfer.every > 1) numbers.push_back(turn_);
   }

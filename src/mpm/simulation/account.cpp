@@ -165,7 +165,6 @@ const RunTotals& Simulation::State::find_totals() {
   totals.energy.add("plastic", NamedEnergy::Kind::dissipated, of_all.plastic);
   totals.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
   mechanics->energies(totals.energy);
-  if (device) totals.energy.leave_open();  // it does not count what walls hold up, PIC and mean stresses take
   modules.energies(totals.energy);
   if (over) {
     over->add_up(totals.energy);

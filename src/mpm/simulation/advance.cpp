@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 
-#include "mpm/boundary/wall.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "state.hpp"
@@ -120,12 +119,12 @@ void Simulation::State::begin_modules() {
 void Simulation::State::hand_to_device(const DeviceMaker& maker) {
   begin_modules();
   device = maker.make(definition, sets);
+  for (const Module* module : modules.list()) module->teach(*device);
 }
 
 void Simulation::State::tell_modules() {
-  for (Module* module : modules.list()) {
-    if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
-  }
+  mechanics->count(*device);
+  for (Module* module : modules.list()) module->count(*device);
 }
 
 void Simulation::State::run_period() {

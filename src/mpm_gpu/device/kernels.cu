@@ -6,11 +6,13 @@
 #include "mpm_gpu/device/host_headers.hpp"
 
 #pragma clang force_cuda_host_device begin
+#include "mpm/material/norsand_energy.hpp"
 #include "mpm/shape/bspline.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #pragma clang force_cuda_host_device end
+#include "mpm_gpu/device/law_functions.hpp"
 
 namespace mpm_gpu {
 

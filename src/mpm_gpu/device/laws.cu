@@ -6,7 +6,9 @@
 #pragma clang force_cuda_host_device end
 #include "mpm_gpu/passes.hpp"
 #pragma clang force_cuda_host_device begin
+#include "mpm/material/norsand_energy.hpp"
 #include "mpm_gpu/law_passes.hpp"
 #pragma clang force_cuda_host_device end
+#include "mpm_gpu/device/law_functions.hpp"
 
 #include "../lane/laws.cpp"

@@ -1,3 +1,4 @@
+#include "mpm/material/norsand_energy.hpp"
 #include "mpm_gpu/law_passes.hpp"
 
 namespace mpm_gpu {

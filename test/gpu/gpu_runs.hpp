@@ -1,0 +1,86 @@
+// Whole runs of the small scenes, on the processor and where a device takes the steps, and what has to agree.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../unit/checkpoint_run.hpp"
+#include "gpu_scenes.hpp"
+#include "mpm/checkpoint/checkpoint.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_gpu/device.hpp"
+
+namespace gpu_runs {
+
+using mpm::Simulation;
+using mpm::SimulationDefinition;
+using mpm::SimulationOptions;
+
+constexpr int kPeriods = 8;
+
+inline SimulationDefinition scene(SimulationDefinition (*of)(mpm::Precision)) {
+  SimulationDefinition d = of(mpm::Precision::float64);
+  d.time.sync = 5'000'000;
+  return d;
+}
+
+inline SimulationOptions options(bool on_device) {
+  SimulationOptions chosen;
+  chosen.threads = 1;
+  if (on_device) chosen.device = mpm_gpu::device_by(mpm_gpu::Executor(mpm_gpu::Visits::shuffled, 2));
+  return chosen;
+}
+
+inline void advance(Simulation& simulation, int periods) {
+  for (int i = 0; i < periods; ++i) simulation.advance();
+}
+
+inline std::vector<double> field(const Simulation& simulation, const char* name) {
+  std::vector<double> values;
+  simulation.particle_field(name, values);
+  return values;
+}
+
+/// Largest difference of a field, over the largest value that it has.
+inline double difference(const Simulation& a, const Simulation& b, const char* name) {
+  const std::vector<double> one = field(a, name), other = field(b, name);
+  double most = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    most = std::max(most, std::abs(one[i] - other[i]));
+    size = std::max(size, std::abs(one[i]));
+  }
+  EXPECT_GT(size, 0.0) << name;
+  return most / size;
+}
+
+// Sums of a step differ in the last bit, and 8 sync periods of some 10 steps let that grow; nothing else differs. The
+// same bound holds between two instruction sets of the processor.
+constexpr double kRoundOff = 1e-10;
+
+inline void expect_alike(Simulation& here, Simulation& there) {
+  EXPECT_EQ(here.time(), there.time());
+  const mpm::SolverState a = here.state(), b = there.state();
+  EXPECT_EQ(a.step.steps, b.step.steps);
+  EXPECT_NEAR(a.step.dt_min, b.step.dt_min, kRoundOff * a.step.dt_min);
+  EXPECT_EQ(a.step.limited_by.substr(0, 20), b.step.limited_by.substr(0, 20));
+  ASSERT_EQ(a.energy.list().size(), b.energy.list().size());
+  for (const mpm::NamedEnergy& energy : a.energy.list()) {
+    EXPECT_NEAR(energy.value, b.energy.of(energy.name), kRoundOff * a.energy.whole()) << energy.name;
+  }
+  EXPECT_EQ(a.energy.closed(), b.energy.closed());
+  ASSERT_EQ(a.audit.impulses.size(), b.audit.impulses.size());
+  for (std::size_t i = 0; i < a.audit.impulses.size(); ++i) {
+    EXPECT_EQ(a.audit.impulses[i].name, b.audit.impulses[i].name);
+    const double size = a.audit.exchanged;
+    EXPECT_NEAR((a.audit.impulses[i].impulse - b.audit.impulses[i].impulse).norm(), 0.0, kRoundOff * size)
+        << a.audit.impulses[i].name;
+  }
+  EXPECT_NEAR(a.audit.exchanged, b.audit.exchanged, kRoundOff * a.audit.exchanged);
+  EXPECT_LT(b.audit.residual, kRoundOff);
+  for (const char* name : {"x", "z", "vz", "j"}) EXPECT_LT(difference(here, there, name), kRoundOff) << name;
+}
+
+}  // namespace gpu_runs

@@ -66,7 +66,7 @@ set_source_files_properties(test/verification/allocation_test.cpp PROPERTIES SKI
 target_precompile_headers(verification_tests REUSE_FROM test_pages)
 # Robots need an engine, which not every build has.
 if(MPM_ROBOTS AND DART_FOUND)
-  mpm_add_gtests(robots mpm_robots mpm_study test_pages)
+  mpm_add_gtests(robots mpm_robots mpm_gpu mpm_study test_pages)
   target_precompile_headers(robots_tests REUSE_FROM test_pages)
 endif()
 # Every two features that go together.

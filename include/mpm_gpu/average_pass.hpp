@@ -1,8 +1,7 @@
 // The kernel of mean stresses (mechanics/stress_average.hpp): an index is a cell, by the node at its lower corner. It
 // visits the particles of its own that flow twice, for the sums and to give the means, so that nothing goes over memory
 // between. A particle's cell is that where it is now; the solver on the processor takes the nearest cell of its block
-// for one that has left that by more than half a cell. Weak: the elastic energy that particles lose is not counted. For
-// code of one lane alone.
+// for one that has left that by more than half a cell. For code of one lane alone.
 #pragma once
 
 #include "mpm/kernel/flowing.hpp"
@@ -25,6 +24,7 @@ struct AverageKernel {
   const void* law;  ///< law of the set, where kernels are run
   int number;       ///< number of the set
   SetView set;
+  bool adds;  ///< to the energy that other sets have lost in the cell
 
   /// visit(particle) for those of the cell above a node.
   template <class Visit>
@@ -72,20 +72,33 @@ struct AverageKernel {
       ++flowing;
     });
     for (double& one : stress) one /= sum;
+    const double mean_energy = flowing > 1 ? energy(stress, volume / sum) : 0.0;
+    double lost = adds ? step.nodes.averaged[node] : 0.0;
     each_of_cell(node, [&](std::uint32_t p) {
       const bool flows = flowing > 1 && particles.flows(p);
       particles.remember(p);
       if (!flows) return;
-      const double factor = volume / sum / particles.volume_ratio(p);
+      const double ratio = particles.volume_ratio(p), factor = volume / sum / ratio;
+      double own[Stored::kCount];
+      particles.stress(p, own);
+      lost += mass_of(step.particles, set, p).v * (energy(own, ratio) - mean_energy);
       particles.set_stress(p, stress);
       const double root = kDim == 3 ? inverse_cbrt(W(factor)).v : 0.0;
       particles.stretch(p, kDim == 3 ? factor * root * root : sqrt(W(factor)).v);
     });
+    step.nodes.averaged[node] = lost;
+  }
+  /// Elastic energy of a particle's stress [J/kg], for which no law that averages asks for F.
+  double energy(const double* stress, double volume_ratio) const {
+    constexpr decltype(Geometry::dilatation(1.0)) kNoMatter{};
+    return static_cast<const LawType*>(law)->elastic_energy(kNoMatter, Stored::symmetric(stress), volume_ratio);
   }
 
   static void run(Executor& run, const StepView<T>& step, int number, const void* law) {
     const SetView& set = step.sets[number];
-    AverageKernel kernel{step, {}, law, number, set};
+    bool adds = false;
+    for (int before = 0; before < number; ++before) adds = adds || step.sets[before].averages;
+    AverageKernel kernel{step, {}, law, number, set, adds};
     for (int i = 0; i < 6; ++i) kernel.arrays.stress[i] = step.particles.tau[i];
     for (int i = 0; i < 9; ++i) kernel.arrays.gradient[i] = step.particles.f[i];
     kernel.arrays.strain = step.particles.history[LawType::kPlasticStrain];

@@ -15,11 +15,18 @@ class CellTable {
  public:
   CellTable(const GridView& grid, int dim);
 
+  /// Places of particles [m], and their ids, which in a set have no gap.
+  struct Places {
+    const double* x[3];
+    const std::uint32_t* id;
+  };
+
   /// Makes room for so many particles, and for twice as many blocks as hold particles now. Between steps only.
-  void make_room(Executor& run, const double* const* x, const std::vector<SetView>& sets);
-  /// Finds the order in which the particles are to lie: particle i is to be the one that lies at order()[i] now. Sets
-  /// stay where they are. Then the table of blocks. @throws GpuError when there is no room for the blocks
-  void sort(Executor& run, const double* const* x, const std::vector<SetView>& sets);
+  void make_room(Executor& run, const Places& places, const std::vector<SetView>& sets);
+  /// Finds the order in which the particles are to lie, by cells and in a cell by ids, whatever it was before: particle
+  /// i is to be the one that lies at order()[i] now. Sets stay where they are. Then the table of blocks. @throws
+  /// GpuError when there is no room for the blocks
+  void sort(Executor& run, const Places& places, const std::vector<SetView>& sets);
   const std::uint32_t* order() const { return order_.data(); }
   /// Number of each particle's nearest node, by the new order.
   const std::uint32_t* node_of_particles() const { return node_.data(); }
@@ -31,7 +38,8 @@ class CellTable {
   std::size_t bytes() const;
 
  private:
-  void find_keys(Executor& run, const double* const* x, const std::vector<SetView>& sets);
+  /// Keys in the order of ids, so that a stable sort leaves those of a cell in it.
+  void find_keys(Executor& run, const Places& places, const std::vector<SetView>& sets);
   /// Sorts the keys and returns how many blocks hold particles, those of each set for themselves.
   long find_owners(Executor& run);
   void find_blocks(Executor& run, long owners);

@@ -1,4 +1,4 @@
-// Walls at the faces of the domain, as accounts see them: which of them holds a node along an axis.
+// Walls at the faces of the domain: which of them are at a node, and which holds it along an axis.
 #pragma once
 
 #include "mpm_gpu/views.hpp"
@@ -16,20 +16,23 @@ inline void number_of_node(const GridView& grid, int dim, const std::uint64_t* k
   }
 }
 
-/// The face, 2 * axis, + 1 for the upper one, whose wall's impulse at a node along an axis counts; -1 without one. In
-/// an edge of the domain walls that hold act before those that rub, and the first of a kind takes all.
+/// The face of an axis, 2 * axis, + 1 for the upper one, with a wall on which or beyond which a node lies; -1 without
+/// one.
+inline int face_at(const GridView& grid, const int* number, int axis) {
+  const int above = number[axis] - grid.last_node[axis], below = -number[axis];
+  const bool upper = above >= 0;
+  const int beyond = upper ? above : below, face = 2 * axis + (upper ? 1 : 0);
+  return beyond >= 0 && beyond <= grid.wall_layers && grid.faces[face] != Face::open ? face : -1;
+}
+
+/// The face whose wall holds a node always along an axis, the first of them, which takes all; -1 without one.
 inline int holding_face(const GridView& grid, int dim, const int* number, int axis) {
-  int rubs = -1;
-  for (int face = 0; face < 2 * dim; ++face) {
-    const int across = face / 2, beyond = face % 2 == 1 ? number[across] - grid.last_node[across] : -number[across];
-    if (grid.faces[face] == Face::open || beyond < 0 || beyond > grid.wall_layers) continue;
-    if (grid.faces[face] == Face::frictional) {
-      if (rubs < 0) rubs = face;
-    } else if (across == axis || grid.faces[face] == Face::fixed) {
-      return face;
-    }
+  for (int across = 0; across < dim; ++across) {
+    const int face = face_at(grid, number, across);
+    if (face < 0 || grid.faces[face] == Face::frictional) continue;
+    if (across == axis || grid.faces[face] == Face::fixed) return face;
   }
-  return rubs;
+  return -1;
 }
 
 }  // namespace mpm_gpu

@@ -1,9 +1,10 @@
-// State of the nodes of frictional walls, free, sliding or sticking, in the step before, which decides how they are
-// held for the strain (step/coulomb.hpp): a number for each face and node, taken along when the table of blocks is
-// found anew.
+// State of the nodes of walls in the last step, which decides how they hold them for the strain of the next
+// (step/coulomb.hpp) and what they take there (step/surface_loss.hpp): bits of walls.hpp for each node, taken along
+// when the table of blocks is found anew, and to checkpoints and back.
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "mpm_gpu/executor.hpp"
 #include "mpm_gpu/views.hpp"
@@ -12,21 +13,30 @@ namespace mpm_gpu {
 
 class WallHolds {
  public:
-  /// `faces`: 2 * dim, or 0 where no wall is frictional; nothing is kept then.
-  WallHolds(int dim, int faces) : faces_(faces), per_block_(nodes_of_block(dim)) {}
+  /// `kept`: false where no step needs it; nothing is kept then.
+  WallHolds(int dim, bool kept) : kept_(kept), per_block_(nodes_of_block(dim)) {}
 
   /// Makes room for so many nodes, and keeps what is there. Between steps only.
   void make_room(Executor& run, long nodes);
-  /// After a sort: lays the numbers as the blocks lie now; a block that was not there held nothing.
+  /// After a sort: lays the bits as the blocks lie now; a block that was not there held nothing.
   void carry(Executor& run, const NodeView& now);
-  /// [face][node] of Hold.
-  std::uint8_t* data() { return hold_.data(); }
+  /// Bits of each node; null if none are kept.
+  std::uint16_t* data() { return hold_.data(); }
   std::size_t bytes() const { return hold_.bytes() + other_.bytes() + key_.bytes() + other_key_.bytes(); }
 
+  /// Bits of all blocks, on the host.
+  struct OfBlocks {
+    std::vector<std::uint64_t> keys;  ///< keys of blocks, ascending
+    std::vector<std::uint16_t> bits;  ///< [block][node]
+  };
+  OfBlocks download() const;
+  /// Goes on from these, in place of what is kept. Between steps only.
+  void upload(const OfBlocks& blocks);
+
  private:
-  int faces_;
+  bool kept_;
   long per_block_, blocks_ = 0;
-  Buffer<std::uint8_t> hold_, other_;
+  Buffer<std::uint16_t> hold_, other_;
   Buffer<std::uint64_t> key_, other_key_;  ///< keys of the blocks that the numbers are of
 };
 

@@ -85,13 +85,12 @@ struct ForceKernel {
       free[c] = carries ? to.momentum[c * to.nodes + node] / mass + acceleration[c] * dt : 0.0;
       velocity[c] = free[c];
     }
-    hold_at_end<kDim>(step.grid, to, node, number, velocity);
+    hold_at_end<kDim>(step.grid, to, node, number, mass, velocity);
     for (int c = 0; c < kDim; ++c) {
       const long at = c * to.nodes + node;
       const double change = velocity[c] - free[c];
       to.velocity[at] = velocity[c];
       to.acceleration[at] = acceleration[c] + change / dt;
-      to.held[at] = mass * change;
     }
   }
 };
@@ -113,7 +112,7 @@ struct FirstIncrementKernel {
       const long at = c * to.nodes + node;
       first[c] = !step.settings.from_start ? to.velocity[at] : carries ? to.momentum[at] / mass : 0.0;
     }
-    hold_increment<Dim>(step.grid, to, node, number, first);
+    hold_increment<Dim>(step.grid, to, node, number, 0.0, first);
     for (int c = 0; c < Dim; ++c) to.increment[c * to.nodes + node] = first[c];
     if (Mixed) to.work[node] = 0.0;
   }
@@ -140,23 +139,21 @@ struct IncrementKernel {
                                            for (int c = 0; c < Dim; ++c)
                                              momentum[c] += (part * W::load(step.particles.gradient[c] + p)).v;
                                          });
-    double free[Dim], next[Dim], work = 0.0;
+    double next[Dim], work = 0.0;
     const double dt = step.settings.dt;
     for (int c = 0; c < Dim; ++c) {
       const long at = c * to.nodes + node;
-      free[c] = to.increment[at] - momentum[c] / mass;
-      if (Mixed) free[c] *= step.settings.part;
-      if (Mixed) work += mass * free[c] * (to.velocity[at] - 0.5 * dt * to.acceleration[at]);
-      next[c] = free[c];
+      next[c] = to.increment[at] - momentum[c] / mass;
+      if (Mixed) next[c] *= step.settings.part;
+      if (Mixed) work += mass * next[c] * (to.velocity[at] - 0.5 * dt * to.acceleration[at]);
     }
     if (Mixed) to.work[node] += work;
-    hold_increment<Dim>(step.grid, to, node, number, next);
+    hold_increment<Dim>(step.grid, to, node, number, mass, next);
     for (int c = 0; c < Dim; ++c) {
       const long at = c * to.nodes + node;
       to.increment[at] = next[c];
       to.velocity[at] += next[c];
       if (Mixed) to.acceleration[at] += next[c] / dt;
-      to.held[at] += mass * (next[c] - free[c]);
     }
   }
 };

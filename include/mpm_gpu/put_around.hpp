@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mpm_gpu/executor.hpp"
@@ -20,8 +21,8 @@ class PutAround {
   /// Puts back what is out. `x`: places along each axis [m]; `mass`: as in ParticleView.
   template <class T>
   void put(Executor& run, const std::array<double*, 3>& x, const T* mass, const std::vector<SetView>& sets);
-  /// Sum of mass times the way that it was put, along the grid's axes, since the start [kg m].
-  const std::array<double, 3>& carried() const { return carried_; }
+  /// Sum of mass times the way that it was put, along the grid's axes, since the last call [kg m].
+  std::array<double, 3> take_carried() { return std::exchange(carried_, {}); }
   /// Lengths of the domain by which each particle was put along an axis since clear_turns(). Empty of other axes.
   Buffer<std::int16_t>& turns(int k) { return turns_[static_cast<std::size_t>(k)]; }
   Buffer<std::int16_t>& room() { return room_; }

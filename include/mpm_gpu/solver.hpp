@@ -26,6 +26,7 @@
 #include "mpm_gpu/passes.hpp"
 #include "mpm_gpu/put_around.hpp"
 #include "mpm_gpu/stage.hpp"
+#include "mpm_gpu/wall_account.hpp"
 
 namespace mpm_gpu {
 
@@ -72,14 +73,16 @@ struct Method {
   Counting counting = Counting::nothing;  ///< numbers that are kept of what particles lose in their update
 };
 
-/// Impulses on the material since the start [N s], along the grid's axes.
+/// Impulses on the material [N s], along the grid's axes, and energies taken from it [J], since the start.
 struct Impulses {
   /// The wall at a face of the domain, 2 * axis, + 1 for the upper one.
   struct OfFace {
     double impulse[3] = {}, exchanged = 0.0;  ///< exchanged: sum over steps of the size of a step's impulse
+    double friction = 0.0, held = 0.0;        ///< taken by friction; of motion that is held up
   };
   double gravity[3] = {};
   OfFace face[6] = {};
+  double averaged = 0.0;  ///< taken by mean stresses
 
   /// Impulse of all walls.
   std::array<double, 3> walls() const {
@@ -118,9 +121,16 @@ class Solver {
   const GridView& grid() const { return grid_; }
   const std::vector<SetView>& sets() const { return sets_; }
   const Impulses& impulses() const { return impulses_; }
+  /// For a caller who takes sums away, so that they begin again at zero.
+  Impulses& impulses() { return impulses_; }
+  /// State of the nodes of walls in the last step.
+  const WallHolds& holds() const { return holds_; }
+  WallHolds& holds() { return holds_; }
   PutAround& put_around() { return around_; }
   /// Forgets by how many lengths of periodic axes particles were put around.
   void clear_turns() { around_.clear_turns(run_); }
+  /// Walls will act once more in a step, after a stage that moves their nodes.
+  void let_walls_act_again();
   /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
   struct Fastest {
     double rate;  ///< [1/s]; NaN if that of any particle is
@@ -153,22 +163,50 @@ class Solver {
   /// Returns what is kept of what particles lose in their update in this step.
   Counting counting(const StepSettings& settings) const;
   void check(const StepView<T>& now, double start);
+  template <int Dim>
   void account(double dt);
-  std::array<const double*, 3> places() const { return {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}; }
+  CellTable::Places places() const {
+    return {{store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.id.data()};
+  }
 
   // Sums are constexpr, so that kernels may call them, too.
   /// Sums of the nodes in a step.
   struct OfNodes {
-    double held[6][3], mass;  ///< held: by each face
+    struct OfFace {
+      double given[3];
+      mpm::SurfaceLoss loss;
+    };
+    OfFace face[6];
+    double mass, averaged;
     constexpr OfNodes& operator+=(const OfNodes& other) {
       for (int f = 0; f < 6; ++f) {
-        for (int k = 0; k < 3; ++k) held[f][k] += other.held[f][k];
+        for (int k = 0; k < 3; ++k) face[f].given[k] += other.face[f].given[k];
+        face[f].loss += other.face[f].loss;
       }
       mass += other.mass;
+      averaged += other.averaged;
       return *this;
     }
   };
-  /// Faults of the particles in a step; numbers of the first ones.
+  /// A node's part of them, of which most have no wall.
+  template <int Dim>
+  struct OfNode {
+    const WallAccount<Dim>* walls;
+    long node;
+    bool carries;
+    friend constexpr OfNodes& operator+=(OfNodes& sum, const OfNode& one) {
+      const NodeView& nodes = one.walls->nodes;
+      if (nodes.averaged != nullptr) sum.averaged += nodes.averaged[one.node];
+      if (!one.carries) return sum;
+      sum.mass += nodes.mass[one.node];
+      one.walls->each(one.node, [&](int face, const double* given, const mpm::SurfaceLoss& loss) {
+        for (int k = 0; k < Dim; ++k) sum.face[face].given[k] += given[k];
+        sum.face[face].loss += loss;
+      });
+      return sum;
+    }
+  };
+  /// Faults of the particles in a step, numbers of the first ones; energy that PIC takes.
   struct OfParticles {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
@@ -216,8 +254,11 @@ class Solver {
   Buffer<double> taken_;  ///< empty where nothing is counted
   Buffer<double> place_room_;
   Buffer<T> room_;
-  Buffer<double> mass_, nodal_[4];
-  Buffer<double> increment_;  ///< empty without XPIC and FMPM
+  Buffer<double> mass_, nodal_[3];
+  int held_rows_;
+  bool acts_again_ = false;                            ///< true if walls act twice in a step
+  Buffer<double> held_, held_more_, left_, averaged_;  ///< those of NodeView; empty where it has none
+  Buffer<double> increment_;                           ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
   Buffer<Totals> of_totals_;

@@ -76,6 +76,7 @@ struct SetView {
   double half[3];                ///< half of a particle's box [cells]
   double lowest[3], highest[3];  ///< limits of a centre [cells]
   bool averages;                 ///< the mean stress of a cell is taken
+  std::uint32_t first_id;        ///< ids of the set are those from here on
 };
 
 template <class T>
@@ -134,13 +135,19 @@ struct NodeView {
   double* momentum;            ///< [N s]
   double* velocity;            ///< [m/s]
   double* acceleration;        ///< [m/s^2]
-  std::uint8_t* hold;          ///< [face][node], how frictional walls hold (walls.hpp); null if there are none
+  std::uint16_t* hold;         ///< bits of walls.hpp; null where no step needs them of the one before
   double* increment;           ///< increment of XPIC or FMPM that is at work [m/s]
-  double* held;                ///< impulse that walls give in a step [N s]
   double* load;                ///< forces beside the internal ones; null without any [N]
   double* work;                ///< work of increments that FLIP is mixed with; null without them [J]
   /// 1 at nodes near rigid bodies, where frictional walls act after contact; null where none is marked.
   const std::uint8_t* near;
+  // Numbers of nodes on walls alone, [row][component][node]: a row for the wall at a face of each axis, or one for all
+  // where each axis of a node is held by one wall.
+  int held_rows;
+  double* held;       ///< impulse that walls give in a step [N s]
+  double* held_more;  ///< the same on increments and after contact; null where there are none
+  double* left;       ///< velocity that walls leave before increments; null without frictional walls [m/s]
+  double* averaged;   ///< energy that mean stresses take in the cell above a node; null without them [J]
 };
 
 struct StepSettings {

@@ -3,35 +3,48 @@
 // Source: Nairn, GIMP notes (3.12)-(3.20); that a held node stays held for the strain: step/coulomb.hpp.
 #pragma once
 
-#include "mpm_gpu/views.hpp"
+#include "mpm_gpu/faces.hpp"
 
 namespace mpm_gpu {
 
-/// State of contact of a node and a frictional wall.
+/// State of contact of a node and a wall.
 enum Hold : std::uint8_t { kFree = 0, kSlides = 1, kSticks = 2 };
 
-/// True if a node is on a wall or in the layers beyond it.
-inline bool on_wall(const GridView& grid, const int* number, int face) {
-  const int axis = face / 2, beyond = face % 2 == 1 ? number[axis] - grid.last_node[axis] : -number[axis];
-  return grid.faces[face] != Face::open && beyond >= 0 && beyond <= grid.wall_layers;
+/// State of a node and the wall at a face of an axis, in NodeView::hold: of the last step and of the one before it.
+constexpr Hold held_now(std::uint16_t bits, int axis) { return static_cast<Hold>(bits >> 4 * axis & 3); }
+constexpr Hold held_before(std::uint16_t bits, int axis) { return static_cast<Hold>(bits >> (4 * axis + 2) & 3); }
+constexpr std::uint16_t with_now(std::uint16_t bits, int axis, Hold hold) {
+  return static_cast<std::uint16_t>((bits & ~(3 << 4 * axis)) | hold << 4 * axis);
 }
-
-/// Holds `v` along the axes of walls that always hold.
-template <int Dim>
-void hold_always(const GridView& grid, const int* number, double (&v)[Dim]) {
-  for (int face = 0; face < 2 * Dim; ++face) {
-    if (grid.faces[face] == Face::frictional || !on_wall(grid, number, face)) continue;
-    for (int c = 0; c < Dim; ++c) {
-      if (grid.faces[face] == Face::fixed || c == face / 2) v[c] = 0.0;
-    }
-  }
-}
+/// Turns what is now into the step before; nothing is held now.
+constexpr std::uint16_t a_step_later(std::uint16_t bits) { return static_cast<std::uint16_t>((bits & 0x333) << 2); }
 
 /// Removes from `v` what a held node does not have, an increment or a velocity.
 template <int Dim>
 void hold_part(int face, Hold hold, double (&v)[Dim]) {
   for (int c = 0; c < Dim; ++c) {
     if (hold == kSticks || (hold == kSlides && c == face / 2)) v[c] = 0.0;
+  }
+}
+
+/// State of a node and a wall that always holds.
+inline Hold always(const GridView& grid, int face) { return grid.faces[face] == Face::fixed ? kSticks : kSlides; }
+
+/// visit(face) for the walls at a node: those that always hold, then the frictional ones.
+template <int Dim, class Visit>
+void each_wall_at(const GridView& grid, const int* number, Visit&& visit) {
+  int face[Dim];
+  bool any = false;
+  for (int axis = 0; axis < Dim; ++axis) {
+    face[axis] = face_at(grid, number, axis);
+    any = any || face[axis] >= 0;
+  }
+  if (!any) return;
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (face[axis] >= 0 && grid.faces[face[axis]] != Face::frictional) visit(face[axis]);
+  }
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (face[axis] >= 0 && grid.faces[face[axis]] == Face::frictional) visit(face[axis]);
   }
 }
 
@@ -53,72 +66,142 @@ Hold touch(const GridView& grid, int face, double (&v)[Dim]) {
 /// True if contact with rigid bodies acts at a node between the walls that always hold and the frictional ones.
 inline bool is_near(const NodeView& nodes, long node) { return nodes.near != nullptr && nodes.near[node] != 0; }
 
-/// Lets frictional walls act on the velocity for the strain: a node that was held is held, one that was free if it
-/// approaches.
+/// Action of a frictional wall for the strain: a node that was held is held, one that was free if it approaches.
 template <int Dim>
-void rub_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  for (int face = 0; face < 2 * Dim; ++face) {
-    if (grid.faces[face] != Face::frictional || !on_wall(grid, number, face)) continue;
-    const auto hold = static_cast<Hold>(nodes.hold[face * nodes.nodes + node]);
-    if (hold == kFree) {
-      touch<Dim>(grid, face, v);
-    } else {
-      hold_part<Dim>(face, hold, v);
-    }
+void rub_for_strain(const GridView& grid, int face, Hold held, double (&v)[Dim]) {
+  if (held == kFree) {
+    touch<Dim>(grid, face, v);
+  } else {
+    hold_part<Dim>(face, held, v);
   }
 }
-/// The same for that of the step's end, by which their contact is decided.
+/// Action of a wall on an increment.
 template <int Dim>
-void rub_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  for (int face = 0; face < 2 * Dim; ++face) {
-    if (grid.faces[face] != Face::frictional) continue;
-    nodes.hold[face * nodes.nodes + node] = on_wall(grid, number, face) ? touch<Dim>(grid, face, v) : kFree;
-  }
+void hold_one_increment(const GridView& grid, const NodeView& nodes, int face, long node, double (&v)[Dim]) {
+  const bool rubs = grid.faces[face] == Face::frictional;
+  hold_part<Dim>(face, rubs ? held_now(nodes.hold[node], face / 2) : always(grid, face), v);
 }
-/// The same for increments of that.
+/// Keeps what a wall gives beside its first impulse of the step, a change from `free` to `v` of this mass.
 template <int Dim>
-void rub_increment(const GridView& grid, const NodeView& nodes, long node, double (&v)[Dim]) {
-  for (int face = 0; face < 2 * Dim; ++face) {
-    if (grid.faces[face] != Face::frictional) continue;
-    hold_part<Dim>(face, static_cast<Hold>(nodes.hold[face * nodes.nodes + node]), v);
+void give_more(const NodeView& nodes, int face, long node, double mass, const double (&free)[Dim],
+               const double (&v)[Dim]) {
+  const int row = nodes.held_rows == 1 ? 0 : face / 2;
+  for (int c = 0; mass > 0.0 && c < Dim; ++c) {
+    nodes.held_more[(row * Dim + c) * nodes.nodes + node] += mass * (v[c] - free[c]);
   }
 }
 
-// All walls at a node; near rigid bodies those that always hold, as the first of two times.
+// All walls at a node; near rigid bodies only those that always hold, which are to act once more after contact.
 
+/// Velocity for the strain.
 template <int Dim>
 void hold_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  hold_always<Dim>(grid, number, v);
-  if (!is_near(nodes, node)) rub_for_strain<Dim>(grid, nodes, node, number, v);
+  each_wall_at<Dim>(grid, number, [&](int face) {
+    if (grid.faces[face] != Face::frictional) {
+      hold_part<Dim>(face, always(grid, face), v);
+    } else if (!is_near(nodes, node)) {
+      rub_for_strain<Dim>(grid, face, held_now(nodes.hold[node], face / 2), v);
+    }
+  });
 }
+
+/// Velocity of the step's end, of which contact is decided; keeps what each wall gives to the mass of the node.
 template <int Dim>
-void hold_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  hold_always<Dim>(grid, number, v);
-  if (!is_near(nodes, node)) rub_at_end<Dim>(grid, nodes, node, number, v);
+void hold_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double mass,
+                 double (&v)[Dim]) {
+  const bool carries = mass > grid.least_mass;
+  std::uint16_t bits = 0;
+  bool any = false;
+  each_wall_at<Dim>(grid, number, [&](int face) {
+    const int axis = face / 2, row = nodes.held_rows == 1 ? 0 : axis;
+    const bool adds = nodes.held_rows == 1 && any;
+    if (!any && nodes.hold != nullptr) bits = a_step_later(nodes.hold[node]);
+    any = true;
+    double free[Dim];
+    for (int c = 0; c < Dim; ++c) free[c] = v[c];
+    Hold hold = always(grid, face);
+    if (grid.faces[face] != Face::frictional) {
+      hold_part<Dim>(face, hold, v);
+    } else {
+      hold = is_near(nodes, node) ? kFree : touch<Dim>(grid, face, v);
+    }
+    bits = with_now(bits, axis, carries ? hold : kFree);
+    for (int c = 0; c < Dim; ++c) {
+      const long at = (row * Dim + c) * nodes.nodes + node;
+      nodes.held[at] = (adds ? nodes.held[at] : 0.0) + mass * (v[c] - free[c]);
+      if (nodes.held_more != nullptr) nodes.held_more[at] = 0.0;
+    }
+  });
+  if (!any) return;
+  if (nodes.hold != nullptr) nodes.hold[node] = bits;
+  for (int c = 0; nodes.left != nullptr && c < Dim; ++c) nodes.left[c * nodes.nodes + node] = v[c];
 }
+
+/// Increments of the velocity of the step's end, of a node of this mass; keeps what each wall gives. A mass of 0 where
+/// nothing is added yet.
 template <int Dim>
-void hold_increment(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  hold_always<Dim>(grid, number, v);
-  if (!is_near(nodes, node)) rub_increment<Dim>(grid, nodes, node, v);
+void hold_increment(const GridView& grid, const NodeView& nodes, long node, const int* number, double mass,
+                    double (&v)[Dim]) {
+  each_wall_at<Dim>(grid, number, [&](int face) {
+    if (grid.faces[face] == Face::frictional && is_near(nodes, node)) return;
+    double free[Dim];
+    for (int c = 0; c < Dim; ++c) free[c] = v[c];
+    hold_one_increment<Dim>(grid, nodes, face, node, v);
+    give_more<Dim>(nodes, face, node, mass, free, v);
+  });
 }
 
 // Near rigid bodies, when contact with them has acted: frictional walls, then once more those that always hold.
 
+/// visit(face) in that order.
+template <int Dim, class Visit>
+void each_wall_again(const GridView& grid, const int* number, Visit&& visit) {
+  for (const bool rubs : {true, false}) {
+    each_wall_at<Dim>(grid, number, [&](int face) {
+      if ((grid.faces[face] == Face::frictional) == rubs) visit(face);
+    });
+  }
+}
+
 template <int Dim>
 void hold_again_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number,
                            double (&v)[Dim]) {
-  rub_for_strain<Dim>(grid, nodes, node, number, v);
-  hold_always<Dim>(grid, number, v);
+  each_wall_again<Dim>(grid, number, [&](int face) {
+    if (grid.faces[face] == Face::frictional) {
+      rub_for_strain<Dim>(grid, face, held_now(nodes.hold[node], face / 2), v);
+    } else {
+      hold_part<Dim>(face, always(grid, face), v);
+    }
+  });
 }
 template <int Dim>
-void hold_again_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  rub_at_end<Dim>(grid, nodes, node, number, v);
-  hold_always<Dim>(grid, number, v);
+void hold_again_at_end(const GridView& grid, const NodeView& nodes, long node, const int* number, double mass,
+                       double (&v)[Dim]) {
+  each_wall_again<Dim>(grid, number, [&](int face) {
+    double free[Dim];
+    for (int c = 0; c < Dim; ++c) free[c] = v[c];
+    if (grid.faces[face] != Face::frictional) {
+      hold_part<Dim>(face, always(grid, face), v);
+      give_more<Dim>(nodes, face, node, mass, free, v);
+      return;
+    }
+    const Hold hold = touch<Dim>(grid, face, v);
+    nodes.hold[node] = with_now(nodes.hold[node], face / 2, mass > grid.least_mass ? hold : kFree);
+    for (int c = 0; c < Dim; ++c) {
+      nodes.held[(face / 2 * Dim + c) * nodes.nodes + node] = mass * (v[c] - free[c]);
+      nodes.left[c * nodes.nodes + node] = v[c];
+    }
+  });
 }
 template <int Dim>
-void hold_increment_again(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
-  rub_increment<Dim>(grid, nodes, node, v);
-  hold_always<Dim>(grid, number, v);
+void hold_increment_again(const GridView& grid, const NodeView& nodes, long node, const int* number, double mass,
+                          double (&v)[Dim]) {
+  each_wall_again<Dim>(grid, number, [&](int face) {
+    double free[Dim];
+    for (int c = 0; c < Dim; ++c) free[c] = v[c];
+    hold_one_increment<Dim>(grid, nodes, face, node, v);
+    give_more<Dim>(nodes, face, node, mass, free, v);
+  });
 }
 
 }  // namespace mpm_gpu

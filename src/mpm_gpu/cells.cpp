@@ -15,14 +15,14 @@ CellTable::CellTable(const GridView& grid, int dim)
   for (int k = 0; k < dim; ++k) block_keys_ *= static_cast<std::uint64_t>(grid.blocks_along[k]);
 }
 
-void CellTable::make_room(Executor& run, const double* const* x, const std::vector<SetView>& sets) {
+void CellTable::make_room(Executor& run, const Places& places, const std::vector<SetView>& sets) {
   particles_ = 0;
   for (const SetView& set : sets) particles_ += set.count;
   sets_ = static_cast<int>(sets.size());
   for (auto* buffer : {&key_, &other_key_, &cell_key_}) buffer->fit(particles_);
   for (auto* buffer : {&order_, &other_order_, &flag_, &node_}) buffer->fit(particles_);
   run.reserve(key_.size());
-  find_keys(run, x, sets);
+  find_keys(run, places, sets);
   const long owners = find_owners(run);
   if (owners_room_ >= owners + owners / 2) return;
   owners_room_ = 2 * owners + 64;
@@ -38,8 +38,8 @@ void CellTable::make_room(Executor& run, const double* const* x, const std::vect
   for (auto* buffer : {&begin_, &end_}) buffer->fit(room() * sets_);
 }
 
-void CellTable::sort(Executor& run, const double* const* x, const std::vector<SetView>& sets) {
-  find_keys(run, x, sets);
+void CellTable::sort(Executor& run, const Places& places, const std::vector<SetView>& sets) {
+  find_keys(run, places, sets);
   const long owners = find_owners(run);
   if (owners > owners_room_) {
     throw GpuError(
@@ -66,33 +66,32 @@ void CellTable::sort(Executor& run, const double* const* x, const std::vector<Se
   find_ranges(run, static_cast<int>(sets.size()));
 }
 
-void CellTable::find_keys(Executor& run, const double* const* x, const std::vector<SetView>& sets) {
+void CellTable::find_keys(Executor& run, const Places& places, const std::vector<SetView>& sets) {
   struct Kernel {
     GridView grid;
-    const double* x[3];
+    Places places;
     std::uint64_t before, nodes;
     std::uint64_t* key;
     std::uint32_t* order;
-    std::uint32_t first;
+    std::uint32_t first, first_id;
     int dim;
     constexpr void operator()(long i) const {
       const long p = first + i;
       std::uint64_t block = 0, local = 0;
       for (int k = 0; k < dim; ++k) {
         const auto node =
-            static_cast<std::uint64_t>(around(grid, k, nearest_node(in_cells(grid, k, x[k][p]))) + kBeside);
+            static_cast<std::uint64_t>(around(grid, k, nearest_node(in_cells(grid, k, places.x[k][p]))) + kBeside);
         block = block * static_cast<std::uint64_t>(grid.blocks_along[k]) + node / kEdge;
         local = local * kEdge + node % kEdge;
       }
-      key[p] = (before + block) * nodes + local;
-      order[p] = static_cast<std::uint32_t>(p);
+      const std::uint32_t by_id = first + (places.id[p] - first_id);
+      key[by_id] = (before + block) * nodes + local;
+      order[by_id] = static_cast<std::uint32_t>(p);
     }
   };
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const Kernel kernel{grid_,           {x[0], x[1], dim_ == 3 ? x[2] : nullptr},
-                        s * block_keys_, per_block_,
-                        key_.data(),     order_.data(),
-                        sets[s].first,   dim_};
+    const Kernel kernel{grid_,         places,        s * block_keys_,  per_block_, key_.data(),
+                        order_.data(), sets[s].first, sets[s].first_id, dim_};
     run.for_each("gpu: keys of cells", sets[s].count, kernel);
   }
 }

@@ -7,11 +7,11 @@
 
 #include "mpm/modules/with_precision.hpp"
 #include "mpm_gpu/exchange.hpp"
+#include "mpm_gpu/held_nodes.hpp"
 
 namespace mpm_gpu {
 namespace {
 
-using mpm::ImpulseAccount;
 using mpm::ParticleSet;
 using mpm::Vec3;
 
@@ -41,24 +41,29 @@ class RunDevice final : public mpm::Device {
     });
     return fastest;
   }
-  ImpulseAccount take_given(int face) override {
-    const Impulses::OfFace& now = run_->solver().impulses().face[face];
-    Impulses::OfFace& before = told_[face];
-    std::array<double, 3> along{};
-    for (int k = 0; k < 3; ++k) along[k] = now.impulse[k] - before.impulse[k];
-    ImpulseAccount given;
-    given.impulse = in_world(along);
-    given.exchanged = now.exchanged - before.exchanged;
-    before = now;
-    return given;
+  // Sums begin again at zero when they are taken: a run that goes on from a checkpoint has the same bits.
+  OfWall take_wall(int face) override {
+    const Impulses::OfFace now = std::exchange(run_->solver().impulses().face[face], {});
+    OfWall wall;
+    wall.given.impulse = in_world({now.impulse[0], now.impulse[1], now.impulse[2]});
+    wall.given.exchanged = now.exchanged;
+    wall.loss = {now.friction, now.held};
+    return wall;
   }
-  Vec3 take_carried() override {
-    const std::array<double, 3> now = run_->solver().put_around().carried();
-    std::array<double, 3> since{};
-    for (std::size_t k = 0; k < 3; ++k) since[k] = now[k] - carried_before_[k];
-    carried_before_ = now;
-    return in_world(since);
+  double take_averaged() override { return std::exchange(run_->solver().impulses().averaged, 0.0); }
+  mpm::HeldNodes held(int face) const override {
+    mpm::HeldNodes nodes;
+    const Solver<T>& solver = run_->solver();
+    const bool rubs = solver.grid().faces[face] == Face::frictional;
+    // As on the processor, where walls that always hold remember it with USF alone.
+    if (!rubs && definition_.method.update != mpm::UpdateScheme::usf) return nodes;
+    told([&] { nodes = held_nodes(solver.holds(), solver.grid(), layout_, face); });
+    return nodes;
   }
+  void hold(int face, const mpm::HeldNodes& nodes) override {
+    told([&] { hold_nodes(run_->solver().holds(), run_->solver().grid(), layout_, face, nodes); });
+  }
+  Vec3 take_carried() override { return in_world(run_->solver().put_around().take_carried()); }
   void tell_modules() override {
     told([&] {
       for (const auto& stage : run_->solver().stages()) stage->tell_modules();
@@ -85,8 +90,6 @@ class RunDevice final : public mpm::Device {
   void begin(const std::vector<ParticleSet>& sets) {
     run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_, &modules_);
-    told_ = {};
-    carried_before_ = {};
   }
   Vec3 in_world(const std::array<double, 3>& along) const {
     Vec3 vector = Vec3::Zero();
@@ -108,8 +111,6 @@ class RunDevice final : public mpm::Device {
   mpm::GridLayout layout_;
   Executor executor_;
   std::unique_ptr<DeviceRun<T>> run_;
-  std::array<Impulses::OfFace, 6> told_{};
-  std::array<double, 3> carried_before_{};  ///< PutAround::carried() when last taken [kg m]
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ using mpm::SimulationDefinition;
 
 /// Features that steps have here, but a whole simulation has not yet: they have a state that no checkpoint holds, or
 /// act beside steps.
-constexpr std::array kOfRuns = {mpm::Feature::frictional_walls, mpm::Feature::liquids};
+constexpr std::array kOfRuns = {mpm::Feature::liquids};
 
 Face face_of(mpm::WallKind kind) {
   switch (kind) {
@@ -136,6 +136,7 @@ std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
     view.count = static_cast<std::uint32_t>(set.size());
     view.mass = set.mass;
     view.averages = strain_before(set) != nullptr;
+    view.first_id = set.first_id;
     for (int k = 0; k < 3; ++k) {
       view.half[k] = set.half[k];
       view.lowest[k] = set.lowest[k];

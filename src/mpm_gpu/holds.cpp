@@ -17,27 +17,43 @@ void grow(Executor& run, Buffer<T>& values, Buffer<T>& room, long count) {
 }  // namespace
 
 void WallHolds::make_room(Executor& run, long nodes) {
-  if (faces_ == 0) return;
-  grow(run, hold_, other_, faces_ * nodes);
+  if (!kept_) return;
+  grow(run, hold_, other_, nodes);
   grow(run, key_, other_key_, nodes / per_block_);
 }
 
 void WallHolds::carry(Executor& run, const NodeView& now) {
-  if (faces_ == 0) return;
-  const std::uint8_t* from = hold_.data();
-  std::uint8_t* to = other_.data();
+  if (!kept_) return;
+  const std::uint16_t* from = hold_.data();
+  std::uint16_t* to = other_.data();
   const std::uint64_t *old_key = key_.data(), *key = now.key;
-  const long old_blocks = blocks_, per_block = per_block_, nodes = now.nodes;
-  const int faces = faces_;
-  run.for_each("gpu: walls", nodes, [=](long node) {
+  const long old_blocks = blocks_, per_block = per_block_;
+  run.for_each("gpu: walls", now.nodes, [=](long node) {
     const long block = place_of(old_key, old_blocks, key[node / per_block]);
-    const long old = block * per_block + node % per_block, old_nodes = old_blocks * per_block;
-    for (int face = 0; face < faces; ++face) to[face * nodes + node] = block < 0 ? 0 : from[face * old_nodes + old];
+    to[node] = block < 0 ? std::uint16_t{0} : from[block * per_block + node % per_block];
   });
   hold_.swap(other_);
   std::uint64_t* kept = key_.data();
   run.for_each("gpu: walls", now.blocks, [=](long i) { kept[i] = key[i]; });
   blocks_ = now.blocks;
+}
+
+WallHolds::OfBlocks WallHolds::download() const {
+  OfBlocks all;
+  all.keys.resize(static_cast<std::size_t>(blocks_));
+  all.bits.resize(static_cast<std::size_t>(blocks_ * per_block_));
+  key_.download(all.keys.data(), blocks_);
+  hold_.download(all.bits.data(), blocks_ * per_block_);
+  return all;
+}
+
+void WallHolds::upload(const OfBlocks& blocks) {
+  if (!kept_) return;
+  blocks_ = static_cast<long>(blocks.keys.size());
+  for (auto* buffer : {&hold_, &other_}) buffer->fit(blocks_ * per_block_);
+  for (auto* buffer : {&key_, &other_key_}) buffer->fit(blocks_);
+  key_.upload(blocks.keys);
+  hold_.upload(blocks.bits);
 }
 
 }  // namespace mpm_gpu

@@ -162,12 +162,11 @@ void NearCopies<T>::take_at_end(Executor& run, const StepView<T>& step) {
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long at) {
     double given[Dim];
     for (int c = 0; c < Dim; ++c) given[c] = v[c];
-    hold_again_at_end<Dim>(grid, nodes, node, number, v);
+    hold_again_at_end<Dim>(grid, nodes, node, number, nodes.mass[node], v);
     for (int c = 0; c < Dim; ++c) {
       const long to = c * nodes.nodes + node;
       nodes.velocity[to] = v[c];
       nodes.acceleration[to] = acceleration[at + c * stride] + (v[c] - given[c]) / dt;
-      nodes.held[to] += nodes.mass[node] * (v[c] - given[c]);
     }
   });
 }
@@ -178,7 +177,7 @@ void NearCopies<T>::take_first_increment(Executor& run, const StepView<T>& step)
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
-    hold_increment_again<Dim>(grid, nodes, node, number, v);
+    hold_increment_again<Dim>(grid, nodes, node, number, 0.0, v);
     for (int c = 0; c < Dim; ++c) nodes.increment[c * nodes.nodes + node] = v[c];
   });
 }
@@ -191,12 +190,9 @@ void NearCopies<T>::take_increment(Executor& run, const StepView<T>& step) {
   const bool mixed = nodes.work != nullptr;  // particles take this over as they gain an acceleration
   const double dt = step.settings.dt;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
-    double given[Dim];
-    for (int c = 0; c < Dim; ++c) given[c] = v[c];
-    hold_increment_again<Dim>(grid, nodes, node, number, v);
+    hold_increment_again<Dim>(grid, nodes, node, number, nodes.mass[node], v);
     for (int c = 0; c < Dim; ++c) {
       const long to = c * nodes.nodes + node;
-      nodes.held[to] += nodes.mass[node] * (v[c] - given[c]);
       nodes.velocity[to] += v[c] - nodes.increment[to];
       if (mixed) nodes.acceleration[to] += (v[c] - nodes.increment[to]) / dt;
       nodes.increment[to] = v[c];

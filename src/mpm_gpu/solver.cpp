@@ -8,13 +8,14 @@
 #include <string>
 #include <utility>
 
-#include "mpm_gpu/faces.hpp"
-
 namespace mpm_gpu {
 namespace {
 
 bool rubs(const GridView& grid, int dim) {
   return std::any_of(grid.faces, grid.faces + 2 * dim, [](Face face) { return face == Face::frictional; });
+}
+bool any_wall(const GridView& grid, int dim) {
+  return std::any_of(grid.faces, grid.faces + 2 * dim, [](Face face) { return face != Face::open; });
 }
 
 }  // namespace
@@ -30,8 +31,9 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
       run_(executor),
       passes_(&mpm_gpu::passes(dim, method.shape, T())),
       cells_(grid, dim),
-      holds_(dim, rubs(grid, dim) ? 2 * dim : 0),
-      around_(grid, dim) {
+      holds_(dim, rubs(grid, dim) || (method.update == Update::usf && any_wall(grid, dim))),
+      around_(grid, dim),
+      held_rows_(rubs(grid, dim) ? dim : 1) {
   for (const LawOfSet& law : laws) {
     law_passes_.push_back(law_pass(dim, law.index, T()));
     rate_passes_.push_back(rate_pass(dim, law.index, T()));
@@ -64,11 +66,17 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
 
 template <class T>
 void Solver<T>::make_room() {
-  cells_.make_room(run_, places().data(), sets_);
+  cells_.make_room(run_, places(), sets_);
   holds_.make_room(run_, cells_.room());
   mass_.fit(cells_.room());
   for (Buffer<double>& field : nodal_) field.fit(cells_.room() * dim_);
-  if (method_.order > 1 || method_.mixes) increment_.fit(cells_.room() * dim_);
+  held_.fit(cells_.room() * dim_ * held_rows_);
+  if (held_rows_ > 1) left_.fit(cells_.room() * dim_);
+  const bool increments = method_.order > 1 || method_.mixes;
+  if (increments) increment_.fit(cells_.room() * dim_);
+  if (increments || acts_again_) held_more_.fit(cells_.room() * dim_ * held_rows_);
+  const bool averages = std::any_of(sets_.begin(), sets_.end(), [](const SetView& set) { return set.averages; });
+  if (averages) averaged_.fit(cells_.room());
   of_nodes_.fit(Executor::groups_of(cells_.room()));
   for (auto& stage : stages_) stage->make_room(run_, cells_.room());
   must_sort_ = true;  // the table may have moved
@@ -81,8 +89,14 @@ void Solver<T>::add(std::unique_ptr<Stage<T>> stage) {
 }
 
 template <class T>
+void Solver<T>::let_walls_act_again() {
+  acts_again_ = true;
+  held_more_.fit(cells_.room() * dim_ * held_rows_);
+}
+
+template <class T>
 void Solver<T>::sort() {
-  cells_.sort(run_, places().data(), sets_);
+  cells_.sort(run_, places(), sets_);
   holds_.carry(run_, cells_.view());
   const std::uint32_t *order = cells_.order(), *node = cells_.node_of_particles();
   const auto permute = [&](auto& values, auto& room) {
@@ -145,7 +159,11 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.acceleration = nodal_[2].data();
   view.nodes.hold = holds_.data();
   view.nodes.increment = increment_.data();
-  view.nodes.held = nodal_[3].data();
+  view.nodes.held_rows = held_rows_;
+  view.nodes.held = held_.data();
+  view.nodes.held_more = held_more_.data();
+  view.nodes.left = left_.data();
+  view.nodes.averaged = averaged_.data();
   view.sets = sets_.data();
   view.sets_there = sets_there_.data();
   view.set_count = static_cast<int>(sets_.size());
@@ -179,12 +197,14 @@ void Solver<T>::step(double dt, double start) {
   act(mpm::Hook::grid_advanced, now);
   passes_->move[method_.motion][static_cast<int>(counting(now.settings))](run_, now);
   if (method_.update != Update::usf) {
-    momentum(now);
-    act(mpm::Hook::before_strain, now);
+    StepView<T> at_end = now;
+    at_end.nodes.momentum = now.nodes.acceleration;  // not needed any more; accounts need the momentum of the start
+    momentum(at_end);
+    act(mpm::Hook::before_strain, at_end);
     strain(now, halves ? 0.5 * dt : dt);
     for (int k = 0; k < dim_; ++k) store_.x[k].swap(next_x_[k]);
   }
-  account(dt);
+  dim_ == 3 ? account<3>(dt) : account<2>(dt);
   ++steps_;
   check(now, start);
   if (must_sort_ && around_.any()) {
@@ -228,36 +248,27 @@ void Solver<T>::filter(StepView<T> now) {
 }
 
 template <class T>
+template <int Dim>
 void Solver<T>::account(double dt) {
-  const double *mass = mass_.data(), *held = nodal_[3].data();
-  const NodeView view = cells_.view();
-  const std::uint64_t* keys = view.key;
-  const long nodes = view.nodes;
-  const int dim = dim_;
-  const GridView grid = grid_;
+  constexpr double kStrainAtStart[] = {1.0, 0.0, 0.5};  // in the order of Update
+  const WallAccount<Dim> walls{grid_, view(dt).nodes, method_.update == Update::usf ? nullptr : nodal_[2].data(), dt,
+                               kStrainAtStart[static_cast<int>(method_.update)]};
   const OfNodes all = run_.reduce<OfNodes>(
-      "gpu: accounts", nodes,
+      "gpu: accounts", walls.nodes.nodes,
       [=](long i) {
-        OfNodes one{};
-        if (!(mass[i] > grid.least_mass)) return one;
-        one.mass = mass[i];
-        int number[3];
-        number_of_node(grid, dim, keys, i, number);
-        for (int c = 0; c < dim; ++c) {
-          const int face = holding_face(grid, dim, number, c);
-          if (face >= 0) one.held[face][c] = held[c * nodes + i];
-        }
-        return one;
+        return OfNode<Dim>{&walls, i, walls.nodes.mass[i] > walls.grid.least_mass};
       },
       of_nodes_);
-  for (int c = 0; c < dim; ++c) {
-    impulses_.gravity[c] += all.mass * grid_.gravity[c] * dt;
-  }
-  for (int f = 0; f < 2 * dim; ++f) {
+  for (int c = 0; c < Dim; ++c) impulses_.gravity[c] += all.mass * grid_.gravity[c] * dt;
+  for (int f = 0; f < 2 * Dim; ++f) {
+    const auto& [given, loss] = all.face[f];
     Impulses::OfFace& face = impulses_.face[f];
-    for (int c = 0; c < dim; ++c) face.impulse[c] += all.held[f][c];
-    face.exchanged += std::hypot(all.held[f][0], all.held[f][1], all.held[f][2]);
+    for (int c = 0; c < Dim; ++c) face.impulse[c] += given[c];
+    face.exchanged += std::hypot(given[0], given[1], given[2]);
+    face.friction += loss.friction;
+    face.held += loss.held;
   }
+  impulses_.averaged += all.averaged;
 }
 
 template <class T>
@@ -352,9 +363,11 @@ std::size_t Solver<T>::particle_bytes() {
 
 template <class T>
 std::size_t Solver<T>::bytes() {
-  std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + mass_.bytes() +
-                    increment_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
-  for (const Buffer<double>& field : nodal_) sum += field.bytes();
+  std::size_t sum =
+      particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
+  for (const auto* field :
+       {&mass_, &nodal_[0], &nodal_[1], &nodal_[2], &increment_, &held_, &held_more_, &left_, &averaged_})
+    sum += field->bytes();
   for (const auto& stage : stages_) sum += stage->bytes();
   return sum + of_totals_.bytes() + of_faster_.bytes();
 }

@@ -36,6 +36,7 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
   mpm::Mechanics* mechanics = modules == nullptr ? nullptr : &modules->mechanics;
   const mpm::MethodDefinition& method = d.method;
   if (modules != nullptr && modules->contact != nullptr) {
+    solver.let_walls_act_again();
     solver.add(std::make_unique<NearBodies<T>>(*modules->contact, solver.grid()));
   }
   if (is_mixture(method)) solver.add(std::make_unique<Mixture<T>>(method.transfer, mechanics));

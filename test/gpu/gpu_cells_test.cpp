@@ -101,18 +101,22 @@ TEST(GpuCells, SortsAndFindsBlocks) {
   }
   // Nearest nodes: (5, 1), (1, 1), (5, 1); of the other set (1, 1), (-1, 2).
   const std::vector<double> x = {5.2, 0.9, 4.6, 1.4, -0.8}, z = {1.1, 1.3, 0.6, 1.0, 2.0};
+  const std::vector<std::uint32_t> id = {12, 10, 11, 13, 14};
   std::vector<mpm_gpu::SetView> sets(2);
   sets[0].count = 3;
+  sets[0].first_id = 10;
   sets[1].first = 3;
   sets[1].count = 2;
+  sets[1].first_id = 13;
   const Buffer<double> along_x = there(x), along_z = there(z);
-  const double* places[] = {along_x.data(), along_z.data(), nullptr};
+  const Buffer<std::uint32_t> ids = there(id);
+  const mpm_gpu::CellTable::Places places{{along_x.data(), along_z.data(), nullptr}, ids.data()};
   mpm_gpu::CellTable cells(grid, 2);
   Executor run(Visits::backwards);
   cells.make_room(run, places, sets);
   cells.sort(run, places, sets);
   const std::vector<std::uint32_t> order = here(cells.order(), 5);
-  EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 0, 2, 4, 3}));
+  EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 2, 0, 4, 3}));  // by cells, in one by ids
   // Blocks (0, 0), (1, 0) and (-1, 0) hold particles; with those around them they are 5 by 3.
   EXPECT_EQ(cells.blocks(), 15);
   const mpm_gpu::NodeView nodes = cells.view();

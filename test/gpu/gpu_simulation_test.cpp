@@ -1,21 +1,8 @@
 // A whole simulation whose steps a device takes: its clock, step limits, accounts, fields and checkpoints are those of
 // a run on the processor. Cost: 15 s.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "../unit/checkpoint_run.hpp"
-#include "gpu_method_scenes.hpp"
 #include "gpu_runs.hpp"
-#include "mpm/checkpoint/checkpoint.hpp"
 
 namespace gpu_simulation_test {
-
-using mpm::Simulation;
-using mpm::SimulationDefinition;
-using mpm::SimulationOptions;
 
 using namespace gpu_runs;
 
@@ -27,12 +14,8 @@ void expect_run_alike(SimulationDefinition (*of)(mpm::Precision), const std::vec
   advance(there, kPeriods);
   expect_alike(here, there);
   EXPECT_LT(difference(here, there, "szz"), kRoundOff);
-  const mpm::EnergyReport a = here.state().energy, b = there.state().energy;
-  EXPECT_FALSE(b.closed());
-  for (const char* energy : energies) {
-    EXPECT_GT(std::abs(a.of(energy)), 1e-6 * a.whole()) << energy;
-    EXPECT_NEAR(a.of(energy), b.of(energy), kRoundOff * a.whole()) << energy;
-  }
+  const mpm::EnergyReport a = here.state().energy;
+  for (const char* energy : energies) EXPECT_GT(std::abs(a.of(energy)), 1e-6 * a.whole()) << energy;
   const std::vector<mpm::NamedNumber> one = here.numbers(), other = there.numbers();
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -218,10 +201,6 @@ TEST(GpuSimulation, RefusesByName) {
   water.viscosity = 1e-3;
   d.materials.front().law = water;
   expect_refused(d, "liquids ('");
-  d = scene(gpu_scenes::column);
-  d.walls[4].kind = mpm::WallKind::frictional;
-  d.walls[4].friction.coefficient = 0.3;
-  expect_refused(d, "frictional walls (z_min)");
 }
 
 }  // namespace gpu_simulation_test

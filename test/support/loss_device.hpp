@@ -20,7 +20,10 @@ class LossDevice final : public Device {
   }
   void make_room() override {}
   Fastest fastest(int, double) override { return {2000.0, Vec3::Zero()}; }
-  ImpulseAccount take_given(int) override { return {}; }
+  OfWall take_wall(int) override { return {}; }
+  double take_averaged() override { return 0.0; }
+  HeldNodes held(int) const override { return {}; }
+  void hold(int, const HeldNodes&) override {}
   Vec3 take_carried() override { return Vec3::Zero(); }
   void tell_modules() override {}
   Sums sums(int) override {

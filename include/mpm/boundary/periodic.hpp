@@ -38,9 +38,8 @@ class PeriodicAxes final : public Module {
   PeriodicAxes(std::vector<ParticleSet>& sets, const GridLayout& layout, const Vec3& gravity, int threads)
       : sets_(sets), layout_(layout), gravity_(gravity), threads_(threads) {}
   std::string name() const override { return "periodic"; }
-  void before_sort() override { count(put_around(sets_, layout_, threads_)); }
-  /// Books the sum of mass times the way that particles were put where a device takes the steps [kg m].
-  void count(const Vec3& carried) { work_ -= gravity_.dot(carried); }
+  void before_sort() override { work_ -= gravity_.dot(put_around(sets_, layout_, threads_)); }
+  void count(Device& device) override;
   void energies(EnergyReport& report) const override {
     for (int k = 0; k < layout_.dim(); ++k) {
       if (layout_.periodic(k) && gravity_[layout_.axis(k)] != 0.0) {

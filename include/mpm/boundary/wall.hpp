@@ -35,12 +35,9 @@ class Wall final : public FieldStage {
     return holding(hook, Rank::wall, Rank::wall_again);
   }
 
-  int face() const { return face_; }
-  /// Books what the wall has given where a device takes the steps (step/device.hpp).
-  void count(const ImpulseAccount& given) {
-    account_.impulse += given.impulse;
-    account_.exchanged += given.exchanged;
-  }
+  void count(Device& device) override;
+  void learn(const Device& device) override;
+  void teach(Device& device) const override;
 
   void momentum_gathered(FieldContext& context) override;
   void before_strain(FieldContext& context) override;
@@ -72,7 +69,7 @@ class Wall final : public FieldStage {
     Hold hold;    ///< in the step before, then in this one
     bool counts;  ///< to sums, which over several ranks it does on one
     // For a wall that always holds, along the grid's axes:
-    Vec3 removed = Vec3::Zero();  ///< velocity for strain at the start of the step; 0 after another wall [m/s]
+    Vec3 removed = Vec3::Zero();  ///< velocity for strain at the start of the step, by all its acts in it [m/s]
     Vec3 at_end = Vec3::Zero();   ///< factor of c1 in what it takes [N s]
   };
   /// Actions of the wall in a step.
@@ -92,7 +89,7 @@ class Wall final : public FieldStage {
   std::pair<int, int> held_axes(const GridLayout& layout) const;
   /// Books what a wall that always holds takes at a node by the start of the step, by an impulse [N s], and keeps for
   /// before_strain() what it will take by the end. With USF, where nothing is gathered any more, it books both if it
-  /// held the node in the step before. It is NodeLoss with a slip of 0, and c = -V along the axes held.
+  /// held the node in the step before (AxisLoss).
   void hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before, SurfaceLoss& loss) const;
   /// Acts at one node.
   void act(std::size_t node, FieldContext& context, const Vec3& normal, Deeds& deeds);

@@ -66,6 +66,7 @@ class StressAverage final : public Stage {
   Ranks ranks(Hook) const override { return {Rank::particle_stress}; }
 
   void momentum_gathered(StepContext& context) override;
+  void count(Device& device) override;
   /// "stress averaging", dissipated.
   void energies(EnergyReport& report) const override;
   void serialise(StateArchive& archive) override {

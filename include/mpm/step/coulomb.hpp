@@ -78,6 +78,11 @@ class HeldNodes {
     archive.column("held/hold", held_, &Entry::hold);
     if (archive.merging()) put_in_order();
   }
+  /// visit(id, hold) for each, in ascending order of id.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (const Entry& entry : held_) visit(entry.id, entry.hold);
+  }
   Hold find(std::uint64_t id) const {
     const auto it = std::lower_bound(held_.begin(), held_.end(), id,
                                      [](const Entry& entry, std::uint64_t wanted) { return entry.id < wanted; });

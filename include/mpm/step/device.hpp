@@ -14,9 +14,11 @@
 
 #include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/step/coulomb.hpp"
 #include "mpm/step/mechanics.hpp"
 #include "mpm/step/modules.hpp"
 #include "mpm/step/order.hpp"
+#include "mpm/step/surface_loss.hpp"
 
 namespace mpm {
 
@@ -58,11 +60,22 @@ class Device {
   virtual void make_room() = 0;
   /// `cell`: smallest edge of a cell [m].
   virtual Fastest fastest(int set, double cell) = 0;
-  /// Momentum given since the last call by the wall at a face, 2 * grid axis, + 1 for the upper one.
-  virtual ImpulseAccount take_given(int face) = 0;
+  /// Sums since the last call of the wall at a face, 2 * grid axis, + 1 for the upper one: given, and taken.
+  struct OfWall {
+    ImpulseAccount given;
+    SurfaceLoss loss;
+  };
+  virtual OfWall take_wall(int face) = 0;
+  /// Energy that mean stresses have taken since the last call [J].
+  virtual double take_averaged() = 0;
+  /// Nodes that the wall at a face held in the last step; none where no step needs it of the one before.
+  virtual HeldNodes held(int face) const = 0;
+  /// Goes on from these; after take().
+  virtual void hold(int face, const HeldNodes& nodes) = 0;
   /// Sum of mass times the way that particles were put around periodic axes since the last call [kg m].
   virtual Vec3 take_carried() = 0;
-  /// Books with the modules what was done in their place since the last call, but for walls and periodic axes.
+  /// Books with the modules what was done in the place of loads, damping, PIC and prescribed velocities since the last
+  /// call; other modules ask for what they are to count (Module::count()).
   virtual void tell_modules() = 0;
   /// Sums over the particles of a set.
   struct Sums {

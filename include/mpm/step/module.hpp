@@ -19,6 +19,7 @@
 
 namespace mpm {
 
+class Device;
 class RigidBody;
 
 /// Momentum given to the material from outside since the start [N s], under one name.
@@ -109,6 +110,15 @@ class Module {
   virtual std::optional<OutsideReason> why_outside(const GridLayout&, const ParticleSet&, int /*particle*/) const {
     return std::nullopt;
   }
+
+  // Exchange with a device that takes the steps (step/device.hpp), in which stages do not act.
+
+  /// Books what the device has done since the last call in the module's place.
+  virtual void count(Device&) {}
+  /// Takes over what the device remembers from step to step, before a checkpoint is written.
+  virtual void learn(const Device&) {}
+  /// Gives the device that memory, before it takes its first step from this state.
+  virtual void teach(Device&) const {}
 
   // State.
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mpm/loop/loop.hpp"
+#include "mpm/step/device.hpp"
 
 namespace mpm {
 
@@ -51,5 +52,7 @@ std::string periodic_face_reached(const RigidBody& body, const GridLayout& layou
   }
   return {};
 }
+
+void PeriodicAxes::count(Device& device) { work_ -= gravity_.dot(device.take_carried()); }
 
 }  // namespace mpm

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "mpm/step/device.hpp"
+
 namespace mpm {
 
 Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity, int threads,
@@ -38,6 +40,7 @@ void Wall::momentum_gathered(FieldContext& context) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (context.grid.carries(nodes_[i].ref.block, nodes_[i].ref.node)) {
       carrying_.push_back(static_cast<std::uint32_t>(i));
+      nodes_[i].removed.setZero();
     } else {
       nodes_[i].hold = Hold::free;
     }
@@ -80,15 +83,14 @@ std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {
 void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before, SurfaceLoss& loss) const {
   const Grid& grid = context.grid;
   const auto [first, end] = held_axes(grid.layout);
-  const double mass = grid.mass.at(node.ref.block, 0, node.ref.node), at_start = context.strain_at_start;
+  const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
   for (int k = first; k < end; ++k) {
     const int axis = grid.layout.axis(k);
-    const double momentum = grid.momentum.at(node.ref.block, k, node.ref.node), given = impulse[axis];
-    const double pulled = -momentum - mass * context.dt * gravity_[axis] - given;
-    node.at_end[k] = 0.5 * given + (1.0 - at_start) * pulled;
-    double held = 0.5 * given;
-    if (at_start == 1.0 && before != Hold::free) held += node.at_end[k];  // nothing is gathered any more
-    loss.held -= held * momentum / mass + at_start * pulled * node.removed[k];
+    const AxisLoss taken =
+        axis_loss(mass, grid.momentum.at(node.ref.block, k, node.ref.node), mass * context.dt * gravity_[axis],
+                  impulse[axis], node.removed[k], before != Hold::free, context.strain_at_start);
+    node.at_end[k] = taken.at_end;
+    loss.held += taken.taken;
   }
 }
 
@@ -104,7 +106,7 @@ void Wall::before_strain(FieldContext& context) {
         if (acted_) {
           deeds.loss.held -= node.at_end[k] * velocity;
         } else {
-          node.removed[k] = velocity;
+          node.removed[k] += velocity;
         }
         velocity = 0.0;
       }
@@ -190,6 +192,17 @@ void Wall::increment_found(FieldContext& context) {
     if (node.counts) given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
 }
+
+void Wall::count(Device& device) {
+  const Device::OfWall now = device.take_wall(face_);
+  account_.impulse += now.given.impulse;
+  account_.exchanged += now.given.exchanged;
+  loss_ += now.loss;
+}
+
+void Wall::learn(const Device& device) { held_ = device.held(face_); }
+
+void Wall::teach(Device& device) const { device.hold(face_, held_); }
 
 void Wall::grid_advanced(FieldContext&) {
   account_.add(given_);

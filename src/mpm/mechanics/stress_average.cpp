@@ -6,6 +6,7 @@
 #include "mpm/grid/each_share.hpp"
 #include "mpm/kernel/flowing.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/step/device.hpp"
 
 namespace mpm {
 namespace {
@@ -314,6 +315,8 @@ void StressAverage::begin() {
     });
   });
 }
+
+void StressAverage::count(Device& device) { taken_ += device.take_averaged(); }
 
 void StressAverage::energies(EnergyReport& report) const {
   report.add("stress averaging", NamedEnergy::Kind::dissipated, taken_);

@@ -357,8 +357,6 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::device, Feature::transport, kNoKernel, kOnCpu},
       {Feature::device, Feature::cracks, kNoKernel, kOnCpu},
       {Feature::device, Feature::volumes, kNoKernel, kOnCpu},
-      {Feature::device, Feature::frictional_walls, "how such a wall held its nodes is in no checkpoint there yet",
-       kOnCpu},
       {Feature::device, Feature::liquids, "their volume is corrected, for which there is no kernel there yet", kOnCpu},
       {Feature::device, Feature::particle_tools, "contact is not found from volumes there yet", kOnCpu},
       {Feature::device, Feature::thin_tools, "all material is in one velocity field there",

@@ -9,8 +9,6 @@
 #include <array>
 #include <cmath>
 
-#include "mpm/boundary/periodic.hpp"
-#include "mpm/boundary/wall.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/simulation/rank_failure.hpp"
 #include "state.hpp"
@@ -127,17 +125,15 @@ void Simulation::State::begin_modules() {
 void Simulation::State::hand_to_device(const DeviceMaker& maker) {
   begin_modules();
   device = maker.make(definition, sets, {*mechanics, modules, host_contact.get()});
+  for (const Module* module : modules.list()) module->teach(*device);
 }
 
 void Simulation::State::tell_modules() {
   try {
     device->tell_modules();
+    for (Module* module : modules.list()) module->count(*device);
   } catch (const ModuleError& error) {
     throw PhysicsError(error.what());
-  }
-  for (Module* module : modules.list()) {
-    if (auto* wall = dynamic_cast<Wall*>(module)) wall->count(device->take_given(wall->face()));
-    if (auto* axes = dynamic_cast<PeriodicAxes*>(module)) axes->count(device->take_carried());
   }
 }
 

@@ -186,6 +186,7 @@ void Simulation::State::serialise_limit(StateArchive& archive, const char* name,
 void Simulation::State::serialise(StateArchive& archive) {
   if (device && !archive.reading()) {
     fetch();
+    for (Module* module : modules.list()) module->learn(*device);
     if (moved_by_device && !failed) {
       // Sorted as a run on the processor has them, from an order that does not depend on when they were read before.
       for (ParticleSet& set : sets) put_in_order_of_ids(set, threads);
@@ -243,6 +244,7 @@ void Simulation::State::serialise(StateArchive& archive) {
   if (archive.reading() && device) {
     begin_modules();
     device->take(sets);
+    for (const Module* module : modules.list()) module->teach(*device);
   }
   if (archive.reading()) failed = false;
 }

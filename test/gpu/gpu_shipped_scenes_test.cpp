@@ -1,0 +1,54 @@
+// Shipped scenes that a device takes, a few steps of each, against the processor. Cost: 30 s.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "gpu_runs.hpp"
+#include "mpm/rules/feature_rules.hpp"
+#include "mpm/scene/scene.hpp"
+
+namespace gpu_shipped_scenes_test {
+
+using namespace gpu_runs;
+
+/// Steps of a scene, of two sync periods each.
+constexpr int kSteps = 3;
+constexpr std::uint64_t kMostParticles = 70'000;
+
+// Explicit steps of material that is awake, as a device takes them.
+const std::vector<std::string> kOverrides = {"method.update=usavg", "sleep=off"};
+
+/// The scene, with sync periods of a few steps; without particles if a device refuses it.
+mpm::SimulationDefinition part_of(const std::string& name) {
+  mpm::Scene scene = mpm::load_scene(name, kOverrides);
+  if (mpm::feature_fault(scene.definition, {1, true})) return {};
+  mpm::SimulationDefinition d = mpm::build(scene);
+  std::uint64_t particles = 0;
+  for (const mpm::DeformableBody& body : d.bodies) particles += body.positions.size();
+  if (particles > kMostParticles) return {};
+  Simulation probe(d, options(false));
+  probe.advance();
+  d.time.sync = static_cast<std::int64_t>(1e9 * kSteps * probe.state().step.dt_last);
+  return d;
+}
+
+TEST(GpuShippedScenes, RunAsOnTheProcessor) {
+  std::map<std::string, bool> runs;
+  for (const auto& [name, title] : mpm::shipped_scenes()) {
+    SCOPED_TRACE(name);
+    const mpm::SimulationDefinition d = part_of(name);
+    runs[name] = !d.bodies.empty();
+    if (d.bodies.empty()) continue;
+    printf("%s\n", name.c_str());
+    fflush(stdout);
+    Simulation here(d, options(false)), there(d, options(true));
+    advance(here, 2);
+    advance(there, 2);
+    expect_sums_alike(here, there, d.method.precision == mpm::Precision::float32 ? 1e-5 : kRoundOff);
+  }
+  for (const char* name : {"blade_in_soil", "speed_tool_3d", "elastic_block", "wheel_in_sand"}) {
+    EXPECT_TRUE(runs[name]) << name;
+  }
+}
+
+}  // namespace gpu_shipped_scenes_test

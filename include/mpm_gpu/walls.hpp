@@ -40,11 +40,9 @@ void each_wall_at(const GridView& grid, const int* number, Visit&& visit) {
     any = any || face[axis] >= 0;
   }
   if (!any) return;
-  for (int axis = 0; axis < Dim; ++axis) {
-    if (face[axis] >= 0 && grid.faces[face[axis]] != Face::frictional) visit(face[axis]);
-  }
-  for (int axis = 0; axis < Dim; ++axis) {
-    if (face[axis] >= 0 && grid.faces[face[axis]] == Face::frictional) visit(face[axis]);
+  for (int i = 0; i < 2 * Dim; ++i) {
+    const int one = face[i % Dim];
+    if (one >= 0 && (grid.faces[one] == Face::frictional) == (i >= Dim)) visit(one);
   }
 }
 

@@ -66,6 +66,40 @@ TEST(GpuAccount, FrictionalWallsInAnEdge) {
   }
 }
 
+// Energy of the mean stresses of every other law that has them: sand and clay above and below have the rest.
+TEST(GpuAccount, MeanStressesOfOtherLaws) {
+  mpm::MohrCoulombDefinition angles;
+  angles.elasticity = {1e6, 0.3};
+  angles.friction_angle = 0.6;
+  mpm::MuIDefinition grains;
+  grains.elasticity = {1e6, 0.3};
+  grains.static_friction = 0.4;
+  grains.limiting_friction = 0.7;
+  grains.reference_inertial = 0.3;
+  grains.grain_diameter = 1e-3;
+  grains.grain_density = 2600.0;
+  mpm::NorSandDefinition sand;
+  sand.gamma = 0.9;
+  sand.lambda = 0.03;
+  sand.slope = 1.3;
+  sand.coupling = 0.3;
+  sand.dilatancy = 3.0;
+  sand.hardening = 100.0;
+  sand.shear_modulus = 5e6;
+  sand.void_ratio = 0.75;
+  for (const mpm::LawDefinition& law :
+       {mpm::LawDefinition(angles), mpm::LawDefinition(grains), mpm::LawDefinition(sand)}) {
+    SCOPED_TRACE(law.index());
+    SimulationDefinition d = between_walls(mpm::UpdateScheme::usavg);
+    d.materials.front().law = law;
+    Simulation here(d, options(false)), there(d, options(true));
+    advance(here, kPeriods);
+    advance(there, kPeriods);
+    expect_alike(here, there);
+    EXPECT_GT(std::abs(here.state().energy.of("stress averaging")), 1e-6 * here.state().energy.of("plastic"));
+  }
+}
+
 TEST(GpuAccount, WallsInACorner) {
   const struct {
     mpm::UpdateScheme update;

@@ -162,12 +162,20 @@ class Solver {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
-    Taken taken;
     constexpr OfParticles& operator+=(const OfParticles& other) {
-      taken += other.taken;
       left = left || other.left;
       outside = outside < other.outside ? outside : other.outside;
       inverted = inverted < other.inverted ? inverted : other.inverted;
+      return *this;
+    }
+  };
+  /// The same in a step in which what they lose is counted.
+  struct OfCounted {
+    OfParticles faults;
+    Taken taken;
+    constexpr OfCounted& operator+=(const OfCounted& other) {
+      faults += other.faults;
+      taken += other.taken;
       return *this;
     }
   };
@@ -215,6 +223,7 @@ class Solver {
   Buffer<double> increment_;  ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
+  Buffer<OfCounted> of_counted_;  ///< empty where nothing is counted
   Buffer<Momentum> of_momentum_;
   Buffer<Faster> of_faster_;
   Impulses impulses_;

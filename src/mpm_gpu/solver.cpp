@@ -54,6 +54,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   place_room_.fit(count_);
   room_.fit(count_);
   of_particles_.fit(Executor::groups_of(count_));
+  if (method.counting != Counting::nothing) of_counted_.fit(Executor::groups_of(count_));
   of_momentum_.fit(Executor::groups_of(count_));
   of_faster_.fit(Executor::groups_of(count_));
   make_room();
@@ -252,21 +253,29 @@ void Solver<T>::account(double dt) {
 template <class T>
 void Solver<T>::check(const StepView<T>& now, double start) {
   const std::uint8_t* fault = fault_.data();
-  const double* taken = taken_.data();
+  const auto faults_of = [=](long i) {
+    OfParticles one;
+    one.left = (fault[i] & kLeftCell) != 0;
+    if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
+    if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
+    return one;
+  };
+  OfCounted sums;
+  OfParticles& all = sums.faults;
   const Counting counted = counting(now.settings);
-  const int dim = dim_;
-  const long count = count_;
-  OfParticles all = run_.reduce<OfParticles>(
-      "gpu: checks", count_,
-      [=](long i) {
-        OfParticles one;
-        one.left = (fault[i] & kLeftCell) != 0;
-        if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
-        if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
-        one.taken = taken_by(taken, counted, dim, count, i);
-        return one;
-      },
-      of_particles_);
+  if (counted == Counting::nothing) {
+    all = run_.reduce<OfParticles>("gpu: checks", count_, faults_of, of_particles_);
+  } else {
+    const double* taken = taken_.data();
+    const int dim = dim_;
+    const long count = count_;
+    sums = run_.reduce<OfCounted>(
+        "gpu: checks", count,
+        [=](long i) {
+          return OfCounted{faults_of(i), taken_by(taken, counted, dim, count, i)};
+        },
+        of_counted_);
+  }
   must_sort_ = all.left;
   const auto fail = [&](std::uint32_t p, const char* what) {
     std::string place;
@@ -282,7 +291,7 @@ void Solver<T>::check(const StepView<T>& now, double start) {
     if (std::any_of(stages_.begin(), stages_.end(), puts_back)) all.outside = OfParticles::kNone;
   }
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
-  for (auto& stage : stages_) stage->end_step(run_, now, start, all.taken);
+  for (auto& stage : stages_) stage->end_step(run_, now, start, sums.taken);
 }
 
 template <class T>
@@ -339,7 +348,7 @@ std::size_t Solver<T>::particle_bytes() {
 template <class T>
 std::size_t Solver<T>::bytes() {
   std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + mass_.bytes() + increment_.bytes() +
-                    of_nodes_.bytes() + of_particles_.bytes();
+                    of_nodes_.bytes() + of_particles_.bytes() + of_counted_.bytes();
   for (const Buffer<double>& field : nodal_) sum += field.bytes();
   for (const auto& stage : stages_) sum += stage->bytes();
   return sum + of_momentum_.bytes() + of_faster_.bytes();

@@ -211,12 +211,20 @@ class Solver {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     bool left = false;
     std::uint32_t outside = kNone, inverted = kNone;
-    Taken taken;
     constexpr OfParticles& operator+=(const OfParticles& other) {
-      taken += other.taken;
       left = left || other.left;
       outside = outside < other.outside ? outside : other.outside;
       inverted = inverted < other.inverted ? inverted : other.inverted;
+      return *this;
+    }
+  };
+  /// The same in a step in which what they lose is counted.
+  struct OfCounted {
+    OfParticles faults;
+    Taken taken;
+    constexpr OfCounted& operator+=(const OfCounted& other) {
+      faults += other.faults;
+      taken += other.taken;
       return *this;
     }
   };
@@ -257,10 +265,12 @@ class Solver {
   Buffer<double> mass_, nodal_[3];
   int held_rows_;
   bool acts_again_ = false;                            ///< true if walls act twice in a step
+  Buffer<double> moved_[2];                            ///< NodeView::moved at the start and the end of a step
   Buffer<double> held_, held_more_, left_, averaged_;  ///< those of NodeView; empty where it has none
   Buffer<double> increment_;                           ///< empty without XPIC and FMPM
   Buffer<OfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
+  Buffer<OfCounted> of_counted_;  ///< empty where nothing is counted
   Buffer<Totals> of_totals_;
   Buffer<Faster> of_faster_;
   Impulses impulses_;

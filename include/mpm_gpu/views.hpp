@@ -147,6 +147,7 @@ struct NodeView {
   double* held;       ///< impulse that walls give in a step [N s]
   double* held_more;  ///< the same on increments and after contact; null where there are none
   double* left;       ///< velocity that walls leave before increments; null without frictional walls [m/s]
+  double* moved;      ///< change of the velocity for the strain by contact; null where walls act once [m/s]
   double* averaged;   ///< energy that mean stresses take in the cell above a node; null without them [J]
 };
 

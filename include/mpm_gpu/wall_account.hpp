@@ -38,9 +38,10 @@ struct WallAccount {
 
   GridView grid;
   NodeView nodes;
-  const double* at_end;    ///< momentum gathered at the end of the step; null with USF [N s]
-  double dt;               ///< [s]
-  double strain_at_start;  ///< part of the strain that sees the velocities of the step's start
+  const double* at_end;        ///< momentum gathered at the end of the step; null with USF [N s]
+  const double* moved_at_end;  ///< NodeView::moved of the end of the step
+  double dt;                   ///< [s]
+  double strain_at_start;      ///< part of the strain that sees the velocities of the step's start
 
   /// book(face, impulse by component, energy taken) for each wall at a node.
   template <class Book>
@@ -82,6 +83,10 @@ struct WallAccount {
     if (one && holding_face(grid, Dim, number, c) != face) return 0.0;
     return held[((one ? 0 : face / 2) * Dim + c) * nodes.nodes + node];
   }
+  /// Change by contact of a velocity between two acts of a wall that always holds.
+  double moved(const double* field, long node, int c) const {
+    return field == nullptr ? 0.0 : field[c * nodes.nodes + node];
+  }
   double held_up(int face, long node, const int* number) const {
     const double mass = nodes.mass[node];
     const bool held = nodes.hold != nullptr && held_before(nodes.hold[node], face / 2) != kFree;
@@ -89,11 +94,13 @@ struct WallAccount {
     for (int c = 0; c < Dim; ++c) {
       if (holding_face(grid, Dim, number, c) != face) continue;
       const double momentum = nodes.momentum[c * nodes.nodes + node];
-      const mpm::AxisLoss loss =
-          mpm::axis_loss(mass, momentum, mass * dt * grid.gravity[c], of_wall(nodes.held, face, node, number, c),
-                         strain_at_start > 0.0 ? momentum / mass : 0.0, held, strain_at_start);
+      const mpm::AxisLoss loss = mpm::axis_loss(
+          mass, momentum, mass * dt * grid.gravity[c], of_wall(nodes.held, face, node, number, c),
+          strain_at_start > 0.0 ? momentum / mass + moved(nodes.moved, node, c) : 0.0, held, strain_at_start);
       taken += loss.taken;
-      if (at_end != nullptr) taken -= loss.at_end * at_end[c * nodes.nodes + node] / mass;
+      if (at_end != nullptr) {
+        taken -= loss.at_end * (at_end[c * nodes.nodes + node] / mass + moved(moved_at_end, node, c));
+      }
     }
     return taken;
   }
@@ -111,6 +118,10 @@ struct WallAccount {
         now.left += -inverse_mass * of(row(face), node, 1.0);
       }
     });
+    for (int c = 0; c < Dim; ++c) {
+      now.at_start.c[c] += moved(nodes.moved, node, c);
+      now.at_end.c[c] += moved(moved_at_end, node, c);
+    }
     return now;
   }
   const double* row(int face) const { return nodes.held + face / 2 * Dim * nodes.nodes; }

@@ -95,6 +95,7 @@ void give_more(const NodeView& nodes, int face, long node, double mass, const do
 template <int Dim>
 void hold_for_strain(const GridView& grid, const NodeView& nodes, long node, const int* number, double (&v)[Dim]) {
   each_wall_at<Dim>(grid, number, [&](int face) {
+    for (int c = 0; nodes.moved != nullptr && c < Dim; ++c) nodes.moved[c * nodes.nodes + node] = 0.0;
     if (grid.faces[face] != Face::frictional) {
       hold_part<Dim>(face, always(grid, face), v);
     } else if (!is_near(nodes, node)) {

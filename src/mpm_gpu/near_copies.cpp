@@ -147,6 +147,10 @@ void NearCopies<T>::take_for_strain(Executor& run, const StepView<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
+    for (int c = 0; c < Dim; ++c) {
+      const long to = c * nodes.nodes + node;
+      nodes.moved[to] = v[c] - nodes.velocity[to];
+    }
     hold_again_for_strain<Dim>(grid, nodes, node, number, v);
     for (int c = 0; c < Dim; ++c) nodes.velocity[c * nodes.nodes + node] = v[c];
   });

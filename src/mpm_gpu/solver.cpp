@@ -58,6 +58,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   place_room_.fit(count_);
   room_.fit(count_);
   of_particles_.fit(Executor::groups_of(count_));
+  if (method.counting != Counting::nothing) of_counted_.fit(Executor::groups_of(count_));
   of_totals_.fit(Executor::groups_of(count_));
   of_faster_.fit(Executor::groups_of(count_));
   around_.fit(count_);
@@ -75,6 +76,7 @@ void Solver<T>::make_room() {
   const bool increments = method_.order > 1 || method_.mixes;
   if (increments) increment_.fit(cells_.room() * dim_);
   if (increments || acts_again_) held_more_.fit(cells_.room() * dim_ * held_rows_);
+  for (int end = 0; end < 2 && acts_again_; ++end) moved_[end].fit(cells_.room() * dim_);
   const bool averages = std::any_of(sets_.begin(), sets_.end(), [](const SetView& set) { return set.averages; });
   if (averages) averaged_.fit(cells_.room());
   of_nodes_.fit(Executor::groups_of(cells_.room()));
@@ -91,7 +93,7 @@ void Solver<T>::add(std::unique_ptr<Stage<T>> stage) {
 template <class T>
 void Solver<T>::let_walls_act_again() {
   acts_again_ = true;
-  held_more_.fit(cells_.room() * dim_ * held_rows_);
+  make_room();
 }
 
 template <class T>
@@ -161,6 +163,7 @@ StepView<T> Solver<T>::view(double dt) {
   view.nodes.increment = increment_.data();
   view.nodes.held_rows = held_rows_;
   view.nodes.held = held_.data();
+  view.nodes.moved = moved_[0].data();
   view.nodes.held_more = held_more_.data();
   view.nodes.left = left_.data();
   view.nodes.averaged = averaged_.data();
@@ -198,6 +201,7 @@ void Solver<T>::step(double dt, double start) {
   passes_->move[method_.motion][static_cast<int>(counting(now.settings))](run_, now);
   if (method_.update != Update::usf) {
     StepView<T> at_end = now;
+    at_end.nodes.moved = moved_[1].data();
     at_end.nodes.momentum = now.nodes.acceleration;  // not needed any more; accounts need the momentum of the start
     momentum(at_end);
     act(mpm::Hook::before_strain, at_end);
@@ -251,7 +255,11 @@ template <class T>
 template <int Dim>
 void Solver<T>::account(double dt) {
   constexpr double kStrainAtStart[] = {1.0, 0.0, 0.5};  // in the order of Update
-  const WallAccount<Dim> walls{grid_, view(dt).nodes, method_.update == Update::usf ? nullptr : nodal_[2].data(), dt,
+  const WallAccount<Dim> walls{grid_,
+                               view(dt).nodes,
+                               method_.update == Update::usf ? nullptr : nodal_[2].data(),
+                               moved_[1].data(),
+                               dt,
                                kStrainAtStart[static_cast<int>(method_.update)]};
   const OfNodes all = run_.reduce<OfNodes>(
       "gpu: accounts", walls.nodes.nodes,
@@ -274,21 +282,29 @@ void Solver<T>::account(double dt) {
 template <class T>
 void Solver<T>::check(const StepView<T>& now, double start) {
   const std::uint8_t* fault = fault_.data();
-  const double* taken = taken_.data();
+  const auto faults_of = [=](long i) {
+    OfParticles one;
+    one.left = (fault[i] & kLeftCell) != 0;
+    if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
+    if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
+    return one;
+  };
+  OfCounted sums;
+  OfParticles& all = sums.faults;
   const Counting counted = counting(now.settings);
-  const int dim = dim_;
-  const long count = count_;
-  OfParticles all = run_.reduce<OfParticles>(
-      "gpu: checks", count_,
-      [=](long i) {
-        OfParticles one;
-        one.left = (fault[i] & kLeftCell) != 0;
-        if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
-        if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
-        one.taken = taken_by(taken, counted, dim, count, i);
-        return one;
-      },
-      of_particles_);
+  if (counted == Counting::nothing) {
+    all = run_.reduce<OfParticles>("gpu: checks", count_, faults_of, of_particles_);
+  } else {
+    const double* taken = taken_.data();
+    const int dim = dim_;
+    const long count = count_;
+    sums = run_.reduce<OfCounted>(
+        "gpu: checks", count,
+        [=](long i) {
+          return OfCounted{faults_of(i), taken_by(taken, counted, dim, count, i)};
+        },
+        of_counted_);
+  }
   must_sort_ = all.left;
   const auto fail = [&](std::uint32_t p, const char* what) {
     std::string place;
@@ -304,7 +320,7 @@ void Solver<T>::check(const StepView<T>& now, double start) {
     if (std::any_of(stages_.begin(), stages_.end(), puts_back)) all.outside = OfParticles::kNone;
   }
   if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
-  for (auto& stage : stages_) stage->end_step(run_, now, start, all.taken);
+  for (auto& stage : stages_) stage->end_step(run_, now, start, sums.taken);
 }
 
 template <class T>
@@ -363,10 +379,10 @@ std::size_t Solver<T>::particle_bytes() {
 
 template <class T>
 std::size_t Solver<T>::bytes() {
-  std::size_t sum =
-      particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + of_nodes_.bytes() + of_particles_.bytes();
-  for (const auto* field :
-       {&mass_, &nodal_[0], &nodal_[1], &nodal_[2], &increment_, &held_, &held_more_, &left_, &averaged_})
+  std::size_t sum = particle_bytes() + cells_.bytes() + holds_.bytes() + around_.bytes() + of_nodes_.bytes() +
+                    of_particles_.bytes() + of_counted_.bytes();
+  for (const auto* field : {&mass_, &nodal_[0], &nodal_[1], &nodal_[2], &increment_, &held_, &held_more_, &left_,
+                            &averaged_, &moved_[0], &moved_[1]})
     sum += field->bytes();
   for (const auto& stage : stages_) sum += stage->bytes();
   return sum + of_totals_.bytes() + of_faster_.bytes();

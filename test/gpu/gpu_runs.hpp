@@ -72,11 +72,13 @@ inline void expect_sums_alike(Simulation& here, Simulation& there, double bound 
   const auto value = [](const mpm::EnergyReport& energy, const std::string& name) {
     return name == "around" ? 0.0 : energy.of(name) - (name == "potential" ? energy.of("around") : 0.0);
   };
+  double size = 0.0;
+  for (const mpm::NamedEnergy& energy : a.energy.list()) size += std::abs(energy.value);
   ASSERT_EQ(a.energy.list().size(), b.energy.list().size());
   for (const mpm::NamedEnergy& energy : a.energy.list()) {
-    EXPECT_NEAR(value(a.energy, energy.name), value(b.energy, energy.name), bound * a.energy.whole()) << energy.name;
+    EXPECT_NEAR(value(a.energy, energy.name), value(b.energy, energy.name), bound * size) << energy.name;
   }
-  EXPECT_EQ(b.energy.closed(), a.energy.closed() && here.bodies().empty());
+  EXPECT_EQ(b.energy.closed(), a.energy.closed());
   ASSERT_EQ(a.audit.impulses.size(), b.audit.impulses.size());
   for (std::size_t i = 0; i < a.audit.impulses.size(); ++i) {
     EXPECT_EQ(a.audit.impulses[i].name, b.audit.impulses[i].name);

@@ -1,5 +1,5 @@
 // A whole simulation whose steps a device takes: its clock, step limits, accounts, fields and checkpoints are those of
-// a run on the processor. Cost: 15 s.
+// a run on the processor. Cost: 10 s.
 #include "gpu_runs.hpp"
 
 namespace gpu_simulation_test {

@@ -30,8 +30,8 @@ struct ChosenFaces {
 ChosenFaces choose_faces(const std::string& body, int face, const std::vector<std::uint32_t>& particles,
                          const char* what, const RunParts& parts);
 
-/// Loads of a definition on particles, for sets that begin as it says. @throws DefinitionError for a body or particle that
-/// is not there
+/// Loads of a definition on particles, for sets that begin as it says. @throws DefinitionError for a body or particle
+/// that is not there
 std::vector<ParticleLoadTerm> particle_load_terms(const SimulationDefinition& definition,
                                                   const std::vector<ParticleSet>& sets, Communicator* ranks = nullptr);
 

@@ -184,8 +184,6 @@ const RunTotals& Simulation::State::find_totals() {
   totals.energy.add("plastic", NamedEnergy::Kind::dissipated, of_all.plastic);
   totals.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
   mechanics->energies(totals.energy);
-  // The energy of walls at nodes that contact moves is not counted there.
-  if (device && host_contact) totals.energy.leave_open();
   modules.energies(totals.energy);
   if (over) {
     over->add_up(totals.energy);

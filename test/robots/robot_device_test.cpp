@@ -1,5 +1,5 @@
 // Robots on material whose steps a device takes: joints, bases and wrenches are those of a run on the processor.
-// Cost: 10 s.
+// Cost: 2 s.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -27,17 +27,18 @@ method: {update: usavg}
 materials: [{name: clay, law: j2_plasticity, density: 1800, young: 2 MPa, poisson: 0.4, yield_stress: 10 kPa}]
 bodies: [{name: bed, material: clay, shape: {box: {min: [-0.16, -0.16, -0.12], max: [0.16, 0.16, 0]}}}]
 boundaries: {all: slip, z_max: none}
-contact: {method: nodes}
 robots:
 )" + robot,
                                   "robot.yaml");
-  return {build(scene), options};
+  SimulationDefinition definition = build(scene);
+  for (RigidBodyDefinition& link : definition.rigid_bodies) link.sides = Sides::one;  // they are thin for this grid
+  return Simulation(definition, options);
 }
 
 /// Runs both and compares them.
 void expect_alike(const std::string& robot) {
   constexpr int kPeriods = 60;
-  constexpr double kRoundOff = 1e-9;  // contact at nodes has no tolerance; the engine's solution of joints has its own
+  constexpr double kRoundOff = 1e-9;  // points come in the same order, since no particle leaves its cell
   Simulation here = run_of(robot, false), there = run_of(robot, true);
   double force = 0.0;
   for (int k = 0; k < kPeriods; ++k) {
@@ -62,7 +63,7 @@ TEST(RobotDevice, GantryPressesClay) {
   expect_alike(fmt::format(R"(  - name: gantry
     urdf: {}
     base: {{pose: {{position: [0, 0, 0.04]}}}}
-    links: {{plate: {{friction: 0.3, sides: one}}}}
+    links: {{plate: {{friction: 0.3}}}}
     joints:
       along: {{drive: velocity, target: 0.1}}
       down: {{drive: velocity, target: 0.5, effort: 60}}
@@ -74,8 +75,8 @@ TEST(RobotDevice, GantryPressesClay) {
 TEST(RobotDevice, LegFallsOnClay) {
   expect_alike(fmt::format(R"(  - name: leg
     urdf: {}
-    base: {{kind: free, pose: {{position: [0, 0, 0.241]}}}}
-    links: {{foot: {{friction: 0.5, sides: one}}}}
+    base: {{kind: free, pose: {{position: [0, 0, 0.24]}}}}
+    links: {{foot: {{friction: 0.5}}}}
     joints:
       hip_joint: {{drive: position, stiffness: 20, damping: 0.1}}
       knee: {{drive: position, stiffness: 20, damping: 0.1}}

@@ -75,6 +75,10 @@ class Buffer {
     memory_ = Memory();  // given back first, so that both need not fit
     memory_ = Memory(static_cast<std::size_t>(count) * sizeof(T));
   }
+  /// The same for what grows now and then: makes twice the room that is needed where there is too little.
+  void grow(long count) {
+    if (count > size()) fit(2 * count);
+  }
   /// For kernels: the host may not look there.
   T* data() { return static_cast<T*>(memory_.data()); }
   const T* data() const { return static_cast<const T*>(memory_.data()); }

@@ -22,7 +22,9 @@ class PutsBack final : public Stage<T> {
 
   /// @throws mpm::ModuleError when more have left than may
   bool put_back(Executor& run, const StepView<T>& step) override;
-  std::size_t bytes() const override { return numbers_.bytes() + fault_.bytes() + id_.bytes() + total_.bytes(); }
+  std::size_t bytes() const override {
+    return numbers_.bytes() + fault_.bytes() + id_.bytes() + total_.bytes() + taken_.bytes();
+  }
 
  private:
   mpm::GridLayout layout_;

@@ -7,7 +7,6 @@
 // copied, though few of them touch.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -37,12 +36,10 @@ class NearBodies final : public Stage<T> {
                                          std::vector<std::uint32_t>& of_block);
   void find_velocities();
   void download_particles(Executor& run, const StepView<T>& step);
-  /// Numbers along the axes, of the host's blocks, of a block of the table.
-  std::array<int, 3> host_block(std::uint64_t key) const;
 
   mpm::HostContact& contact_;
   const mpm::GridLayout layout_;
-  std::array<long, 3> blocks_along_;
+  GridView grid_view_;
   bool rubs_;      ///< true if a wall is frictional
   double radius_;  ///< radius of the ball around a block that holds its particles and what they reach [m]
   NearCopies<T> copies_;

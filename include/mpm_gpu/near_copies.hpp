@@ -5,7 +5,6 @@
 // ones, which have not acted at these nodes before, then those that always hold.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

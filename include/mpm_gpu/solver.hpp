@@ -1,8 +1,8 @@
 // Steps of a run on the device: its memory, and the passes in their order. One step, strain first (USF):
 //
 //   sort          particles by cell, the table of blocks        where a particle has left its cell, and at first
-//   (average)     tau, F                    <-  particles       a cell at a time, where a body's stress is averaged
 //   momentum      m, m v, v of nodes        <-  particles       a gather by nodes
+//   (average)     tau, F                    <-  particles       a cell at a time, where a body's stress is averaged
 //   gradient      grad v of particles       <-  v               a gather by particles
 //   (the law)     F, tau, history           <-  grad v dt       a set at a time
 //   force         a, v of nodes             <-  particles       a gather by nodes; gravity and walls
@@ -13,7 +13,8 @@
 // start: particles move to other places, which become theirs at the end. USAVG does half of the strain at each time.
 // Stages that a scene needs beside these (stage.hpp) act between the passes.
 //
-// Nothing is allocated in a step after make_room(), which is called between sync periods.
+// Nothing is allocated in a step after make_room(), which is called between sync periods, but for lists of the nodes
+// near rigid bodies and of those that moving regions hold, where they outgrow their room.
 #pragma once
 
 #include <array>

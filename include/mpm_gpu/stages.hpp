@@ -1,7 +1,6 @@
 // The stages that a scene needs beside the plain step, made for a solver of this library.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "mpm/definition/definition.hpp"

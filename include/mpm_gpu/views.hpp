@@ -6,6 +6,8 @@
 // `nodes` in a component, and double as in the solver.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace mpm_gpu {
@@ -67,6 +69,26 @@ constexpr std::uint64_t neighbour_key(const GridView& grid, int dim, std::uint64
     key /= along;
   }
   return neighbour;
+}
+
+/// Numbers along the axes of a block of the table as the host counts blocks (mpm/grid/grid_layout.hpp).
+constexpr std::array<int, 3> host_block(const GridView& grid, int dim, std::uint64_t key) {
+  std::array<int, 3> block{};
+  for (int k = dim - 1; k >= 0; --k) {
+    const auto along = static_cast<std::uint64_t>(grid.blocks_along[k]);
+    block[static_cast<std::size_t>(k)] = static_cast<int>(key % along) - kBeside / kEdge;
+    key /= along;
+  }
+  return block;
+}
+/// Key of the block with these numbers.
+constexpr std::uint64_t key_of_host_block(const GridView& grid, int dim, const std::array<int, 3>& block) {
+  std::uint64_t key = 0;
+  for (int k = 0; k < dim; ++k) {
+    key = key * static_cast<std::uint64_t>(grid.blocks_along[k]) +
+          static_cast<std::uint64_t>(block[static_cast<std::size_t>(k)] + kBeside / kEdge);
+  }
+  return key;
 }
 
 /// One body.

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "mpm/modules/with_precision.hpp"
@@ -28,32 +27,32 @@ class RunDevice final : public mpm::Device {
   }
 
   void step(double start, double dt) override {
-    told([&] { run_->solver().step(dt, start); });
+    told([&] { run().solver().step(dt, start); });
   }
   void make_room() override {
-    told([&] { run_->solver().make_room(); });
+    told([&] { run().solver().make_room(); });
   }
   Fastest fastest(int set, double cell) override {
     Fastest fastest{};
     told([&] {
-      const auto found = run_->solver().fastest(set, cell);
+      const auto found = run().solver().fastest(set, cell);
       fastest = {found.rate, in_world(found.place)};
     });
     return fastest;
   }
   // Sums begin again at zero when they are taken: a run that goes on from a checkpoint has the same bits.
   OfWall take_wall(int face) override {
-    const Impulses::OfFace now = std::exchange(run_->solver().impulses().face[face], {});
+    const Impulses::OfFace now = std::exchange(run().solver().impulses().face[face], {});
     OfWall wall;
     wall.given.impulse = in_world({now.impulse[0], now.impulse[1], now.impulse[2]});
     wall.given.exchanged = now.exchanged;
     wall.loss = {now.friction, now.held};
     return wall;
   }
-  double take_averaged() override { return std::exchange(run_->solver().impulses().averaged, 0.0); }
+  double take_averaged() override { return std::exchange(run().solver().impulses().averaged, 0.0); }
   mpm::HeldNodes held(int face) const override {
     mpm::HeldNodes nodes;
-    const Solver<T>& solver = run_->solver();
+    const Solver<T>& solver = run().solver();
     const bool rubs = solver.grid().faces[face] == Face::frictional;
     // As on the processor, where walls that always hold remember it with USF alone.
     if (!rubs && definition_.method.update != mpm::UpdateScheme::usf) return nodes;
@@ -61,18 +60,18 @@ class RunDevice final : public mpm::Device {
     return nodes;
   }
   void hold(int face, const mpm::HeldNodes& nodes) override {
-    told([&] { hold_nodes(run_->solver().holds(), run_->solver().grid(), layout_, face, nodes); });
+    told([&] { hold_nodes(run().solver().holds(), run().solver().grid(), layout_, face, nodes); });
   }
-  Vec3 take_carried() override { return in_world(run_->solver().put_around().take_carried()); }
+  Vec3 take_carried() override { return in_world(run().solver().put_around().take_carried()); }
   void tell_modules() override {
     told([&] {
-      for (const auto& stage : run_->solver().stages()) stage->tell_modules();
+      for (const auto& stage : run().solver().stages()) stage->tell_modules();
     });
   }
   Sums sums(int set) override {
     Sums sums;
     told([&] {
-      const Totals found = run_->solver().totals(set);
+      const Totals found = run().solver().totals(set);
       sums = {found.kinetic, found.elastic, found.plastic, found.carried, found.least_j, {}, {}};
       sums.momentum = in_world({found.momentum[0], found.momentum[1], found.momentum[2]});
       sums.place = in_world({found.place[0], found.place[1], found.place[2]});
@@ -80,7 +79,7 @@ class RunDevice final : public mpm::Device {
     return sums;
   }
   void fetch(std::vector<ParticleSet>& sets, Numbers which) override {
-    told([&] { run_->write_to(sets, which == Numbers::all); });
+    told([&] { run().write_to(sets, which == Numbers::all); });
   }
   void take(const std::vector<ParticleSet>& sets) override {
     told([&] { begin(sets); });
@@ -90,6 +89,11 @@ class RunDevice final : public mpm::Device {
   void begin(const std::vector<ParticleSet>& sets) {
     run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_, &modules_);
+  }
+  /// @throws GpuError where there is none, since it could not be made again
+  DeviceRun<T>& run() const {
+    if (!run_) throw GpuError("gpu: the particles are lost, since they could not be taken over");
+    return *run_;
   }
   Vec3 in_world(const std::array<double, 3>& along) const {
     Vec3 vector = Vec3::Zero();

@@ -7,15 +7,6 @@
 namespace mpm_gpu {
 namespace {
 
-constexpr int kBlocksBeside = kBeside / kEdge;
-
-std::uint64_t key_of(const GridView& grid, const mpm::GridLayout& layout, const std::array<int, 3>& block) {
-  std::uint64_t key = 0;
-  for (int k = 0; k < layout.dim(); ++k)
-    key = key * static_cast<std::uint64_t>(grid.blocks_along[k]) + static_cast<std::uint64_t>(block[k] + kBlocksBeside);
-  return key;
-}
-
 mpm::Hold of_host(Hold hold) { return hold == kSticks ? mpm::Hold::stick : mpm::Hold::slide; }
 Hold of_device(mpm::Hold hold) { return hold == mpm::Hold::stick ? kSticks : kSlides; }
 
@@ -31,10 +22,9 @@ mpm::HeldNodes held_nodes(const WallHolds& holds, const GridView& grid, const mp
     int number[3] = {};
     number_of_node(grid, dim, all.keys.data(), static_cast<long>(i), number);
     if (face_at(grid, number, face / 2) != face) continue;
-    std::array<int, 3> block{};
-    for (int k = 0; k < dim; ++k) block[k] = (number[k] + kBeside) / kEdge - kBlocksBeside;
-    const int local = static_cast<int>(i % static_cast<std::size_t>(per_block));
-    held.add(mpm::HeldNodes::id(layout.key(block), local), of_host(hold));
+    const std::size_t block = i / static_cast<std::size_t>(per_block), local = i % static_cast<std::size_t>(per_block);
+    held.add(mpm::HeldNodes::id(layout.key(host_block(grid, dim, all.keys[block])), static_cast<int>(local)),
+             of_host(hold));
   }
   return held;
 }
@@ -49,7 +39,7 @@ void hold_nodes(WallHolds& holds, const GridView& grid, const mpm::GridLayout& l
     blocks[before.keys[b]].assign(first, first + static_cast<std::ptrdiff_t>(per_block));
   }
   nodes.each([&](std::uint64_t id, mpm::Hold hold) {
-    const std::uint64_t key = key_of(grid, layout, layout.block(mpm::HeldNodes::block_key(id)));
+    const std::uint64_t key = key_of_host_block(grid, layout.dim(), layout.block(mpm::HeldNodes::block_key(id)));
     std::vector<std::uint16_t>& bits = blocks.try_emplace(key, per_block).first->second;
     std::uint16_t& one = bits[static_cast<std::size_t>(mpm::HeldNodes::node(id))];
     one = with_now(one, face / 2, of_device(hold));

@@ -76,7 +76,8 @@ Loads<T>::Loads(const std::vector<mpm::ParticleLoadTerm>& terms, const std::vect
       });
       continue;
     }
-    if (spread.alike.size() == kMost) throw GpuError(fmt::format("gpu: more than {} loads on particles", kMost));
+    if (spread.alike.size() == kMost)
+      throw GpuError(fmt::format("gpu: more than {} loads on particles at once: run it with --device cpu", kMost));
     double mass = 0.0;
     const std::uint32_t bit = 1U << spread.alike.size();
     each_loaded(term, sets, [&](const ParticleSet& set, int p) {

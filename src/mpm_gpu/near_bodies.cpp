@@ -14,7 +14,7 @@ template <class T>
 NearBodies<T>::NearBodies(mpm::HostContact& contact, const GridView& grid)
     : contact_(contact),
       layout_(contact.fields().front()->layout),
-      blocks_along_{grid.blocks_along[0], grid.blocks_along[1], grid.blocks_along[2]},
+      grid_view_(grid),
       rubs_(std::find(grid.faces, grid.faces + 2 * layout_.dim(), Face::frictional) != grid.faces + 2 * layout_.dim()),
       copies_(layout_.dim()) {
   // A block's particles are within half a cell of its nodes, and their nodes as far again as shape functions reach.
@@ -25,21 +25,10 @@ NearBodies<T>::NearBodies(mpm::HostContact& contact, const GridView& grid)
 }
 
 template <class T>
-std::array<int, 3> NearBodies<T>::host_block(std::uint64_t key) const {
-  std::array<int, 3> block{};
-  for (int k = layout_.dim() - 1; k >= 0; --k) {
-    const auto along = static_cast<std::uint64_t>(blocks_along_[k]);
-    block[k] = static_cast<int>(key % along) - kBeside / kEdge;
-    key /= along;
-  }
-  return block;
-}
-
-template <class T>
 void NearBodies<T>::choose() {
   found_.clear();
   for (std::size_t b = 0; b < keys_.size(); ++b) {
-    const std::array<int, 3> block = host_block(keys_[b]);
+    const std::array<int, 3> block = host_block(grid_view_, layout_.dim(), keys_[b]);
     const mpm::Vec3 first = layout_.node_position(block, 0),
                     last = layout_.node_position(block, layout_.nodes_per_block() - 1);
     if (contact_.near(0.5 * (first + last), radius_)) found_.push_back(static_cast<std::int32_t>(b));
@@ -92,7 +81,8 @@ std::vector<std::uint64_t> NearBodies<T>::fill_groups(int sets, std::vector<std:
   }
   std::vector<std::uint64_t> owners;
   for (std::size_t b = 0; b < chosen_.size(); ++b) {
-    if (of_block[b] > 0) owners.push_back(layout_.key(host_block(keys_[static_cast<std::size_t>(chosen_[b])])));
+    if (of_block[b] > 0)
+      owners.push_back(layout_.key(host_block(grid_view_, layout_.dim(), keys_[static_cast<std::size_t>(chosen_[b])])));
   }
   of_block.erase(std::remove(of_block.begin(), of_block.end(), 0U), of_block.end());
   return owners;
@@ -107,11 +97,7 @@ void NearBodies<T>::take(Executor& run, const StepView<T>& step) {
   generation_ = grid().blocks.generation();
   blocks_.clear();
   for (int b = 0; b < grid().blocks.size(); ++b) {
-    std::uint64_t key = 0;
-    for (int k = 0; k < layout_.dim(); ++k) {
-      key = key * static_cast<std::uint64_t>(blocks_along_[k]) +
-            static_cast<std::uint64_t>(grid().blocks.block(b)[k] + kBeside / kEdge);
-    }
+    const std::uint64_t key = key_of_host_block(grid_view_, layout_.dim(), grid().blocks.block(b));
     blocks_.push_back(place_of(keys_.data(), static_cast<long>(keys_.size()), key));
   }
   copies_.take_blocks(run, step.nodes, blocks_, rubs_);

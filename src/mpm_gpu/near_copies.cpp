@@ -1,25 +1,14 @@
 #include "mpm_gpu/near_copies.hpp"
 
 #include "mpm_gpu/faces.hpp"
+#include "mpm_gpu/passes.hpp"
 #include "mpm_gpu/walls.hpp"
 
 namespace mpm_gpu {
-namespace {
-
-/// Twice as much room as is needed, so that it grows seldom while bodies come near.
-template <class T>
-void grow(Buffer<T>& buffer, long count) {
-  if (buffer.size() < count) buffer.fit(2 * count);
-}
-
-}  // namespace
-
 template <class T>
 void NearCopies<T>::download_keys(Executor& run, const NodeView& nodes, std::vector<std::uint64_t>& keys) {
-  grow(key_room_, nodes.blocks);
-  const std::uint64_t* from = nodes.key;
-  std::uint64_t* to = key_room_.data();
-  run.for_each("gpu: nodes near bodies", nodes.blocks, [=](long i) { to[i] = from[i]; });
+  key_room_.grow(nodes.blocks);
+  copy_keys(run, nodes, key_room_.data());
   keys.resize(static_cast<std::size_t>(nodes.blocks));
   key_room_.download(keys.data(), nodes.blocks);
 }
@@ -30,9 +19,9 @@ void NearCopies<T>::download_ranges(Executor& run, const StepView<T>& step, cons
   const long near = static_cast<long>(blocks.size()), per_block = per_block_, all = step.nodes.nodes;
   const long rows = step.set_count * near * per_block;
   ranges.resize(static_cast<std::size_t>(2 * rows));
-  grow(block_, near);
+  block_.grow(near);
   block_.upload(blocks);
-  grow(whole_room_, 2 * rows);
+  whole_room_.grow(2 * rows);
   const std::int32_t* block = block_.data();
   const std::uint32_t *begin = step.nodes.begin, *end = step.nodes.end;
   std::uint32_t* to = whole_room_.data();
@@ -49,10 +38,10 @@ template <class T>
 void NearCopies<T>::take_blocks(Executor& run, const NodeView& nodes, const std::vector<std::int32_t>& blocks,
                                 bool mark) {
   blocks_ = static_cast<long>(blocks.size());
-  grow(block_, blocks_);
+  block_.grow(blocks_);
   block_.upload(blocks);
   if (!mark) return;
-  grow(marks_, nodes.nodes);
+  marks_.grow(nodes.nodes);
   std::uint8_t* marks = marks_.data();
   run.for_each("gpu: nodes near bodies", nodes.nodes, [=](long i) { marks[i] = 0; });
   each_node(run, [=](long node, long, long) { marks[node] = 1; });
@@ -62,9 +51,9 @@ template <class T>
 void NearCopies<T>::take_particles(Executor& run, const StepView<T>& step, const std::vector<std::uint32_t>& particles,
                                    std::vector<std::uint32_t>& ids, std::vector<double>& surface) {
   particles_ = static_cast<long>(particles.size());
-  grow(particle_, particles_);
+  particle_.grow(particles_);
   particle_.upload(particles);
-  grow(whole_room_, particles_);
+  whole_room_.grow(particles_);
   const std::uint32_t *particle = particle_.data(), *from = step.particles.id;
   std::uint32_t* to = whole_room_.data();
   run.for_each("gpu: particles near bodies", particles_, [=](long i) { to[i] = from[particle[i]]; });
@@ -72,7 +61,7 @@ void NearCopies<T>::take_particles(Executor& run, const StepView<T>& step, const
   whole_room_.download(ids.data(), particles_);
   const T* reach = step.particles.surface;
   if (reach == nullptr) return;
-  grow(room_, particles_);
+  room_.grow(particles_);
   double* room = room_.data();
   run.for_each("gpu: particles near bodies", particles_,
                [=](long i) { room[i] = static_cast<double>(reach[particle[i]]); });
@@ -94,7 +83,7 @@ void NearCopies<T>::each_node(Executor& run, const Kernel& kernel) {
 
 template <class T>
 void NearCopies<T>::download(Executor& run, const NodeView& nodes, const double* from, int components, double* to) {
-  grow(room_, count() * components);
+  room_.grow(count() * components);
   double* room = room_.data();
   const std::int32_t* block = block_.data();
   const long per_block = per_block_, all = nodes.nodes;
@@ -110,7 +99,7 @@ void NearCopies<T>::download_particles(Executor& run, const StepView<T>& step, i
                                        std::vector<double>& to) {
   const int dim = dim_, rows = 2 * dim + components;
   const long count = particles_;
-  grow(room_, count * rows);
+  room_.grow(count * rows);
   double* room = room_.data();
   const std::uint32_t* particle = particle_.data();
   const ParticleView<T> particles = step.particles;
@@ -206,7 +195,7 @@ void NearCopies<T>::take_increment(Executor& run, const StepView<T>& step) {
 
 template <class T>
 void NearCopies<T>::upload(Buffer<double>& room, const double* from) {
-  grow(room, count() * dim_);
+  room.grow(count() * dim_);
   room.upload(from, count() * dim_);
 }
 

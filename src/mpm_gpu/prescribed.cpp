@@ -5,11 +5,9 @@
 namespace mpm_gpu {
 namespace {
 
-/// Copies a list there; where it has outgrown its room, it gets twice as much.
 template <class Number>
 void upload(Buffer<Number>& to, const std::vector<Number>& from) {
-  const long count = static_cast<long>(from.size());
-  if (to.size() < count) to.fit(2 * count);
+  to.grow(static_cast<long>(from.size()));
   to.upload(from);
 }
 
@@ -54,15 +52,7 @@ void Prescribed<T>::find_blocks(Executor& run, const StepView<T>& step) {
   keys_.resize(static_cast<std::size_t>(step.nodes.blocks));
   key_.download(keys_.data(), step.nodes.blocks);
   blocks_.clear();
-  for (std::uint64_t key : keys_) {
-    std::array<int, 3> block{};
-    for (int k = layout_.dim() - 1; k >= 0; --k) {
-      const auto along = static_cast<std::uint64_t>(step.grid.blocks_along[k]);
-      block[static_cast<std::size_t>(k)] = static_cast<int>(key % along) - kBeside / kEdge;
-      key /= along;
-    }
-    blocks_.push_back(block);
-  }
+  for (const std::uint64_t key : keys_) blocks_.push_back(host_block(step.grid, layout_.dim(), key));
 }
 
 template <class T>
@@ -103,10 +93,8 @@ void Prescribed<T>::upload_nodes() {
   upload(direction_, direction_here_);
   upload(entry_, entry_here_);
   upload(factor_, factor_here_);
-  for (Buffer<double>* room : {&given_, &work_}) {
-    if (room->size() < entries_) room->fit(2 * entries_);
-  }
-  if (share_.size() < begin_.back()) share_.fit(2 * begin_.back());
+  for (Buffer<double>* room : {&given_, &work_}) room->grow(entries_);
+  share_.grow(begin_.back());
   works_.make_room(entries_);
 }
 

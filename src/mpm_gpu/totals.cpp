@@ -1,7 +1,5 @@
 #include "mpm_gpu/totals.hpp"
 
-#include <cmath>
-
 namespace mpm_gpu {
 namespace {
 

@@ -13,7 +13,8 @@ Tractions<T>::Tractions(mpm::FaceTractions& stage, const std::vector<mpm::Partic
                         const mpm::GridLayout& layout, double across, const Passes<T>& passes)
     : stage_(stage), layout_(layout), passes_(passes) {
   const std::vector<mpm::TractionTerm>& terms = stage.terms();
-  if (terms.size() > kMost) throw GpuError(fmt::format("gpu: more than {} tractions", kMost));
+  if (terms.size() > kMost)
+    throw GpuError(fmt::format("gpu: more than {} tractions at once: run it with --device cpu", kMost));
   std::size_t ids = 0;
   for (const mpm::ParticleSet& set : sets) {
     ids = std::max(ids, static_cast<std::size_t>(set.first_id) + static_cast<std::size_t>(set.size()));

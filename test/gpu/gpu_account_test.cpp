@@ -148,7 +148,13 @@ TEST(GpuAccount, ResumesToTheBit) {
   const SimulationDefinition scenes[] = {
       between_walls(mpm::UpdateScheme::usf),
       in_a_corner(mpm::UpdateScheme::usavg, mpm::WallKind::fixed, mpm::TransferKind::fmpm),
-      scene(gpu_scenes::two_blocks), scene(gpu_scenes::block_apic), halved};
+      scene(gpu_scenes::two_blocks),
+      scene(gpu_scenes::block_apic),
+      scene(gpu_scenes::column_mixture),
+      scene(gpu_scenes::column_damped),
+      scene(gpu_scenes::block_loaded),
+      scene(gpu_scenes::column_pressed),
+      halved};
   for (const SimulationDefinition& d : scenes) {
     const std::string file = folder.file("half.h5");
     Simulation whole(d, options(true)), first(d, options(true)), second(d, options(true));

@@ -156,12 +156,15 @@ inline void expect_alike(const Outcome& twin, const Outcome& plain, double part,
 
 inline double part_of(const Block& block) { return block.is(precision, "single") ? kAlikeSingle : kAlike; }
 
+/// True if a tool is met at points, whose order is seen in the result.
+inline bool at_points(const Block& block) {
+  return block.has_tool() && !block.is(tool, "nodes") && !block.is(tool, "particles");
+}
 /// Contact at points and implicit steps sweep over blocks in their order until changes are below 1e-3 of the largest
 /// velocity (contact/point_solver.cpp), and adhesion gives way at a threshold; another place has another order. Where a
 /// tool and the faces of a crack press on one node, which of them touch in a step hangs on round-off.
 inline double part_elsewhere(const Block& block) {
-  const bool at_points = block.has_tool() && !block.is(tool, "nodes") && !block.is(tool, "particles");
-  const bool swept = at_points || (block.has_tool() && block.has(crack)) || block.is(update, "implicit");
+  const bool swept = at_points(block) || (block.has_tool() && block.has(crack)) || block.is(update, "implicit");
   return swept ? std::max(part_of(block), block.is(tool, "adhesive") ? 5e-2 : 3e-2) : part_of(block);
 }
 
@@ -191,7 +194,8 @@ inline void check_row(const Row& row, const std::string& saved) {
   }
   if (block.has(device)) {
     SCOPED_TRACE("steps by the kernels of a graphics processor");
-    expect_alike(run_of(text, 1, {}, nullptr, true), plain, part);
+    // Points come in the order of particles, which a device sorts more often: 4e-4 so far.
+    expect_alike(run_of(text, 1, {}, nullptr, true), plain, at_points(block) ? std::max(part, 2e-3) : part);
   }
   if (block.has(ranks)) {
     SCOPED_TRACE("two ranks");

@@ -30,9 +30,7 @@ boundaries: {all: slip, z_max: none}
 robots:
 )" + robot,
                                   "robot.yaml");
-  SimulationDefinition definition = build(scene);
-  for (RigidBodyDefinition& link : definition.rigid_bodies) link.sides = Sides::one;  // they are thin for this grid
-  return Simulation(definition, options);
+  return Simulation(build(scene), options);
 }
 
 /// Runs both and compares them.
@@ -63,7 +61,7 @@ TEST(RobotDevice, GantryPressesClay) {
   expect_alike(fmt::format(R"(  - name: gantry
     urdf: {}
     base: {{pose: {{position: [0, 0, 0.04]}}}}
-    links: {{plate: {{friction: 0.3}}}}
+    links: {{plate: {{friction: 0.3, sides: one}}}}
     joints:
       along: {{drive: velocity, target: 0.1}}
       down: {{drive: velocity, target: 0.5, effort: 60}}
@@ -76,7 +74,7 @@ TEST(RobotDevice, LegFallsOnClay) {
   expect_alike(fmt::format(R"(  - name: leg
     urdf: {}
     base: {{kind: free, pose: {{position: [0, 0, 0.24]}}}}
-    links: {{foot: {{friction: 0.5}}}}
+    links: {{foot: {{friction: 0.5, sides: one}}}}
     joints:
       hip_joint: {{drive: position, stiffness: 20, damping: 0.1}}
       knee: {{drive: position, stiffness: 20, damping: 0.1}}

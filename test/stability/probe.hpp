@@ -29,7 +29,7 @@ class SimulationProbe {
   }
   double time() const { return time_; }  ///< [s]
   /// Modules of the run, for a device.
-  RunModules modules() { return {*state_.mechanics, state_.modules}; }
+  RunModules modules() { return {*state_.mechanics, state_.modules, nullptr}; }
   const Simulation& simulation() const { return simulation_; }
   /// Particles of the first body, in an order that a step may change; set.id identifies them.
   ParticleSet& set() { return state_.sets[0]; }

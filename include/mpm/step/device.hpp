@@ -30,7 +30,8 @@ class HostContact {
   virtual bool near(const Vec3& place, double radius) const = 0;
   /// Fields for the nodes near bodies, which the device fills and no sort does.
   virtual Fields& fields() = 0;
-  /// For the particles near bodies: the run's sets, with places, velocities and deformation gradients alone.
+  /// For the particles near bodies: the run's sets, with ids, groups, places, velocities, deformation gradients and
+  /// `surface`, and no other numbers of particles.
   virtual std::vector<ParticleSet>& sets() = 0;
   /// Acts on both as the stages of contact do at a hook.
   virtual void act(Hook hook) = 0;

@@ -14,7 +14,8 @@ const KeyTable<RobotDefinition>& robot_keys() {
                               {"`fixed`, at the origin", "how the first link is held", "free"}),
                  other<Robot>(
                      "links", "map of links",
-                     {"none", "links that meet the material, with `friction` and `collide` as a rigid body has them",
+                     {"none",
+                      "links that meet the material, with `friction`, `collide` and `sides` as a rigid body has them",
                       "{bucket: {friction: 0.4}}"}),
                  other<Robot>("collide", "as of a rigid body",
                               {"`false`",

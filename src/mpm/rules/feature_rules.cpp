@@ -80,12 +80,14 @@ bool uses_present_place(const Function& function) {
          });
 }
 
-/// True for a load whose value at a particle is not the same as at the start of the run, or as at all others.
+/// True for a load whose value at a particle does not stay what it is at the start, or depends on time and differs
+/// between particles. The place at the start goes around periodic axes.
 bool any_load_of_place(const SimulationDefinition& d) {
-  const auto of_place = [](const std::array<Function, 3>& value) {
+  const bool around = wall_of(d, WallKind::periodic).has_value();
+  const auto of_place = [around](const std::array<Function, 3>& value) {
     const auto any = [&](auto is) { return std::any_of(value.begin(), value.end(), is); };
-    return any(uses_present_place) || (any([](const Function& f) { return f.uses_place(); }) &&
-                                       any([](const Function& f) { return f.uses_time(); }));
+    const bool of_start = any([](const Function& f) { return f.uses_place(); });
+    return any(uses_present_place) || (of_start && (around || any([](const Function& f) { return f.uses_time(); })));
   };
   return std::any_of(d.body_forces.begin(), d.body_forces.end(),
                      [&](const auto& load) { return of_place(load.acceleration); }) ||
@@ -170,7 +172,7 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
      [](D d, R) {
        return any_load(d) ? cut_body(d) : std::nullopt;
      }},
-    {Feature::loads_of_place, "loads that depend on the present place, or on time and the place at the start", "loads",
+    {Feature::loads_of_place, "loads that depend on the present place, or on that at the start beside time or a periodic axis", "loads",
      [](D d, R) { return found_if(any_load_of_place(d)); }},
     {Feature::oblique_biot, "a Biot coefficient that differs between directions", "transport.pore_pressure",
      [](D d, R) { return oblique_biot(d); }},

@@ -220,7 +220,7 @@ void read_links(const Map& map, const std::string& path, const FrictionLaw& fric
       value.fail(fmt::format("the robot has no link '{}'; {}", name, suggest(name, names_of(robot.model.links))));
     }
     check_name(value, name);
-    const Map own(value, {"friction", "collide"}, {{"pose", "a link is where its joints put it"}});
+    const Map own(value, {"friction", "collide", "sides"}, {{"pose", "a link is where its joints put it"}});
     RigidBodyDefinition body;
     body.name = robot.name + "/" + name;
     const std::string in_files = robot.name + "_" + name;
@@ -241,6 +241,8 @@ void read_links(const Map& map, const std::string& path, const FrictionLaw& fric
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     const auto own_collide = own.find("collide"), collide = own_collide ? own_collide : map.find("collide");
     if (collide) body.collide = read_collide(*collide);
+    // In the order of Sides.
+    if (const auto sides = own.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     robot.contacts.push_back({link, body.name});
     scene.definition.rigid_bodies.push_back(std::move(body));
     scene.commands.emplace_back();

@@ -100,7 +100,9 @@ std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
 Vec3 Simulation::State::momentum() {
   if (device) {
     Vec3 total = Vec3::Zero();
-    for (std::size_t s = 0; s < sets.size(); ++s) total += device_sums(static_cast<int>(s)).momentum;
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      total += ask_device([&] { return device->sums(static_cast<int>(s)); }).momentum;
+    }
     return total;
   }
   Vec3 total = sum_particles(
@@ -151,22 +153,16 @@ MaterialTotals& MaterialTotals::operator+=(const MaterialTotals& other) {
   return *this;
 }
 
-Device::Sums Simulation::State::device_sums(int set) {
-  try {
-    return device->sums(set);
-  } catch (const ModuleError& error) {
-    throw PhysicsError(error.what());  // with the device the particles are lost
-  }
-}
-
 MaterialTotals Simulation::State::totals_of_device(int set) {
-  const Device::Sums sums = device_sums(set);
+  const Device::Sums sums = ask_device([&] { return device->sums(set); });
+  totals.momentum += sums.momentum;
   return {sums.kinetic, -definition.gravity.dot(sums.place), sums.elastic, sums.plastic, sums.carried, sums.min_j};
 }
 
 const RunTotals& Simulation::State::find_totals() {
   if (device) tell_modules();
   totals.energy.begin_again();
+  totals.momentum.setZero();
   totals.of_set.resize(sets.size());
   MaterialTotals& of_all = totals.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -210,7 +206,7 @@ SolverState Simulation::state() const {
   report.numbers = s.numbers();
 
   AuditReport& audit = report.audit;
-  audit.momentum = s.momentum();
+  audit.momentum = s.device ? totals.momentum : s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts;
   s.modules.accounts(accounts);

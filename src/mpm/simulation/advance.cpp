@@ -106,11 +106,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
 
 void Simulation::State::fetch(Device::Numbers which) {
   if (fetched >= which) return;
-  try {
-    device->fetch(sets, which);
-  } catch (const ModuleError& error) {
-    throw PhysicsError(error.what());  // with it the particles are lost
-  }
+  ask_device([&] { device->fetch(sets, which); });
   fetched = which;
   moved_by_device = true;
   tell_modules();
@@ -129,12 +125,10 @@ void Simulation::State::hand_to_device(const DeviceMaker& maker) {
 }
 
 void Simulation::State::tell_modules() {
-  try {
+  ask_device([&] {
     device->tell_modules();
     for (Module* module : modules.list()) module->count(*device);
-  } catch (const ModuleError& error) {
-    throw PhysicsError(error.what());
-  }
+  });
 }
 
 void Simulation::State::run_period() {

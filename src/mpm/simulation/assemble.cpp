@@ -327,7 +327,12 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (s.over) s.over->warn_of_idle(s.sets, s.warnings);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);
-  if (options.device) begin_on_device([&] { s.hand_to_device(*options.device); });
+  if (options.device) {
+    begin_on_device([&] {
+      s.hand_to_device(*options.device);
+      s.survey_material();  // its first kernels
+    });
+  }
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.watch_energy(0.0, s.material_limit);

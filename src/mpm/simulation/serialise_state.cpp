@@ -186,7 +186,9 @@ void Simulation::State::serialise_limit(StateArchive& archive, const char* name,
 void Simulation::State::serialise(StateArchive& archive) {
   if (device && !archive.reading()) {
     fetch();
-    for (Module* module : modules.list()) module->learn(*device);
+    ask_device([&] {
+      for (Module* module : modules.list()) module->learn(*device);
+    });
     if (moved_by_device && !failed) {
       // Sorted as a run on the processor has them, from an order that does not depend on when they were read before.
       for (ParticleSet& set : sets) put_in_order_of_ids(set, threads);

@@ -58,6 +58,7 @@ bool same(const Pose& a, const Pose& b) {
 }  // namespace
 
 void Simulation::State::check_places(const std::vector<const RigidBody*>& moved) {
+  fetch(Device::Numbers::motion);
   std::string reason;
   if (services.bed != nullptr) {
     // The ground there has to be known; where the place is refused it goes again at the next sync point.

@@ -55,6 +55,7 @@ struct MaterialTotals {
 /// Sums over the whole run; found again in the same memory.
 struct RunTotals {
   MaterialTotals material;
+  Vec3 momentum = Vec3::Zero();  ///< momentum of all particles, where a device finds it with the others [N s]
   EnergyReport energy;
   /// Sums of groups of one set's particles. Those of a group asleep hold until it changes (ParticleSet::rest_changes).
   struct OfGroups {
@@ -114,6 +115,15 @@ struct Simulation::State {
   /// Brings these numbers of the sets, and accounts, up to date with the device, if there is one. All that reads them
   /// calls it before.
   void fetch(Device::Numbers which = Device::Numbers::all);
+  /// Returns what work() does, which asks the device. @throws PhysicsError when that is lost, and the particles with it
+  template <class Work>
+  static auto ask_device(Work&& work) {
+    try {
+      return work();
+    } catch (const ModuleError& error) {
+      throw PhysicsError(error.what());
+    }
+  }
   /// Lets a device take the steps from here on.
   void hand_to_device(const DeviceMaker& maker);
   /// Lets modules take note of the start, as they else do in the first step.
@@ -162,8 +172,6 @@ struct Simulation::State {
   /// `now` [s]; `found`: what the material allows then. @throws PhysicsError when the run makes energy
   void watch_energy(double now, const StepLimit& found);
   const RunTotals& find_totals();
-  /// @throws PhysicsError when the device is lost
-  Device::Sums device_sums(int set);
   /// Sums over a set's particles, which the device finds.
   MaterialTotals totals_of_device(int set);
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError

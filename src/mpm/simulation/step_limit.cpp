@@ -161,7 +161,6 @@ StepLimit Simulation::State::survey_material() {
   if (definition.method.update == UpdateScheme::implicit) return survey_motion();
   const int dim = layout().dim();
   const double cell = layout().smallest_cell();
-  if (device && traits_of(definition.method.shape).shear_limits_step) fetch();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     double shear = shear_of(definition, sets[s], layout(), threads);

@@ -1,6 +1,6 @@
-// Device code of every kernel, made of the headers that the processor's executor runs. Nothing is launched from here:
-// clang turns this file into PTX without a card or CUDA's own headers (scripts/lib/check_device_code), which shows
-// that laws, shape functions and passes are what a device can do.
+// Device code of the kernels of laws, shape functions and stages, made of the headers that the processor's executor
+// runs. Nothing is launched from here: clang turns this file into PTX without a card or CUDA's own headers
+// (scripts/lib/check_device_code), which shows that laws, shape functions and passes are what a device can do.
 //
 // Headers that the processor shares are between the pragmas, so that no function needs a mark.
 #include "mpm_gpu/device/host_headers.hpp"

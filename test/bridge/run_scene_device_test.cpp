@@ -90,7 +90,7 @@ TEST_F(RunSceneDevice, ARecordingIsComparedWithARunBySameProcessorAlone) {
 
 TEST_F(RunSceneDevice, AutoSaysWhyTheProcessorTakesTheSteps) {
   ask("auto", loops());
-  options_.set = {"sleep={from_start: true}"};
+  options_.set = {"sleep={}"};
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   EXPECT_NE(err_.str().find("device auto: this processor takes the steps, since steps on a graphics processor and "
                             "sleep do not go together: "),
@@ -108,7 +108,7 @@ TEST_F(RunSceneDevice, BadInputEndsWithTwoAndOneLine) {
   ask("gpu", mpm::test::too_small());
   expect_one_line("400 particles need more memory than is free: about 100 particles would fit");
   ask("gpu", loops());
-  options_.set = {"sleep={from_start: true}"};
+  options_.set = {"sleep={}"};
   expect_one_line(
       "--device: steps on a graphics processor and sleep do not go together: there are no kernels for that yet; run it "
       "with --device cpu");

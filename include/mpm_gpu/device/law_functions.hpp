@@ -1,5 +1,5 @@
-// Logarithms and powers of single numbers on a device, by the solver's own of a register (kernel/wide_math.hpp), for the
-// energy of laws. For clang, in sources of laws: after their headers.
+// Logarithms and powers of single numbers on a device, by the solver's own of a register (kernel/wide_math.hpp), for
+// the energy of laws. For clang, in sources of laws: after their headers.
 #pragma once
 
 #include "mpm/kernel/wide.hpp"

@@ -90,9 +90,9 @@ class RunDevice final : public mpm::Device {
     run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_, &modules_);
   }
-  /// @throws GpuError where there is none, since it could not be made again
+  /// @throws mpm::ModuleError where there is none, since it could not be made again
   DeviceRun<T>& run() const {
-    if (!run_) throw GpuError("gpu: the particles are lost, since they could not be taken over");
+    if (!run_) throw mpm::ModuleError("gpu: the particles are lost, since they could not be taken over");
     return *run_;
   }
   Vec3 in_world(const std::array<double, 3>& along) const {

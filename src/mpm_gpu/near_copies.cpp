@@ -5,6 +5,7 @@
 #include "mpm_gpu/walls.hpp"
 
 namespace mpm_gpu {
+
 template <class T>
 void NearCopies<T>::download_keys(Executor& run, const NodeView& nodes, std::vector<std::uint64_t>& keys) {
   key_room_.grow(nodes.blocks);

@@ -21,7 +21,7 @@
 // to be expected, c0 where the node was held before. Gravity, whose work is in the potential energy, is no
 // part of F. Weak: loads are; the difference is their impulse times (c0 + c1)/2.
 //
-// Of plain numbers, for code of a device as well.
+// Takes plain numbers, so that code of a device calls it as well.
 #pragma once
 
 namespace mpm {

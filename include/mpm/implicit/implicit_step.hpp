@@ -23,6 +23,7 @@
 
 #include "mpm/contact/contact_reporter.hpp"
 #include "mpm/implicit/soil_cells.hpp"
+#include "mpm/implicit/soil_field.hpp"
 #include "mpm/implicit/sweep_budget.hpp"
 #include "mpm/implicit/tool_rows.hpp"
 #include "mpm/implicit/wall_rows.hpp"
@@ -51,7 +52,28 @@ struct ImplicitSettings {
   SweepBudget* budget = nullptr;  ///< budget of the sync period that steps are part of; null: they take their time
 };
 
-/// A stage and reporter of contact in one. Sets, bodies and grid outlive it. `laws`: of contact, one for each tool.
+/// The solve of a step for a device that has the soil, which sees to it that grid() has the blocks that are in use.
+template <class T>
+class ImplicitSolve {
+ public:
+  virtual ~ImplicitSolve() = default;
+  virtual Grid& grid() = 0;
+  virtual const SoilGrid& soil_grid() const = 0;
+  virtual const SoilBodies& bodies() const = 0;
+  virtual ToolRows<T>& tools() = 0;
+  virtual WallRows<T>& walls() = 0;
+  /// Mass that is added to that of a node [kg].
+  virtual double lightest() const = 0;
+  /// As ImplicitSettings::loads.
+  virtual bool loads() const = 0;
+  /// Lets steps move this soil from here on, which outlives them, in place of that of this processor.
+  virtual void use(SoilField<T>& field) = 0;
+  /// From velocities with gravity and loads to those of the step's end.
+  virtual void solve_step(double start, double dt) = 0;
+};
+
+/// A stage, reporter of contact and ImplicitSolve of the precision in one. Sets, bodies and grid outlive it. `laws`: of
+/// contact, one for each tool.
 struct ImplicitParts {
   SoilBodies bodies;
   std::vector<ParticleSet>* sets;

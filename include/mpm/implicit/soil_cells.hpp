@@ -67,13 +67,6 @@ class SoilCells {
   void add_to_held(HeldImpulses& held) const;
   /// Sum all the way round of what hoop stresses give along r [N s].
   double of_hoops() const;
-  /// The least initial density of the soils [kg/m^3].
-  double least_density() const { return least_density_; }
-  /// The largest constrained modulus of the soils, of metals where there is nothing else [Pa].
-  double modulus() const { return modulus_; }
-  /// The largest constrained modulus and yield stress of metals [Pa].
-  double metal_modulus() const { return metal_modulus_; }
-  double yield_stress() const { return yield_stress_; }
 
  private:
   using Sums = mpm_kernel::SoilSums<T>;
@@ -101,7 +94,6 @@ class SoilCells {
   std::vector<int> begin_;      ///< first group of each block
   std::vector<Group> groups_;
   std::vector<mpm_kernel::SoilMask<T>> masks_;  ///< mask of each group
-  double least_density_ = 0.0, modulus_ = 0.0, metal_modulus_ = 0.0, yield_stress_ = 0.0;
 };
 
 }  // namespace mpm

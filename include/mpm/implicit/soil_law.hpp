@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mpm/material/definition.hpp"
 #include "mpm/material/j2_plasticity.hpp"
@@ -53,6 +54,14 @@ struct ImplicitSoil {
  private:
   Fall cohesion_;
   std::optional<J2Plasticity> metal_;
+};
+
+/// What the soils of a scene have at the least and at the most.
+struct SoilRange {
+  explicit SoilRange(const std::vector<ImplicitSoil>& soils);
+  double least_density = 0.0;  ///< initial [kg/m^3]
+  double modulus = 0.0;        ///< largest constrained modulus of soils, of metals where there is nothing else [Pa]
+  double metal_modulus = 0.0, yield_stress = 0.0;  ///< the same, and the largest yield stress, of metals [Pa]
 };
 
 }  // namespace mpm

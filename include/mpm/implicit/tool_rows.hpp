@@ -69,6 +69,8 @@ class ToolRows {
   }
   Row* rows(int block) { return rows_.data() + begin_[block]; }
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
+  /// Finds the numbers of the nodes of the rows of free bodies, in this step, ascending.
+  void free_nodes(std::vector<int>& numbers) const;
   /// Solves the rows of free bodies, whose velocities change with each, and what they do to each other.
   void meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes);
   /// Looks whether the joints of robots act as assumed (FreeBodies::settle()).

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_field.hpp"
 #include "mpm/boundary/axis.hpp"
-#include "mpm/grid/each_share.hpp"
 #include "mpm/implicit/sweep_momentum.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/shape/ring.hpp"
@@ -30,9 +30,7 @@ constexpr double kKept = 0.9;        ///< part of the sweeps of the step before,
 constexpr double kLightest = 1e-6;   ///< part of a cell full of soil: what is added to a node's mass in the solve
 
 template <class T>
-class ImplicitStep final : public Stage, public ContactReporter {
-  using Node = mpm_kernel::SoilNode<T>;
-
+class ImplicitStep final : public Stage, public ContactReporter, public ImplicitSolve<T> {
  public:
   ImplicitStep(ImplicitParts parts, const ImplicitSettings& settings)
       : table_(sweep_table<T>(settings.isa, settings.geometry)),
@@ -40,15 +38,19 @@ class ImplicitStep final : public Stage, public ContactReporter {
         grid_(*parts.grid),
         sets_(*parts.sets),
         soil_grid_(grid_, settings.walls, axisymmetric(settings.geometry), settings.threads),
-        cells_(std::move(parts.bodies), soil_grid_, settings.threads),
+        bodies_(std::move(parts.bodies)),
+        range_(bodies_.soils),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
-               {settings.geometry, settings.across, cells_.least_density(), settings.threads, settings.gravity,
+               {settings.geometry, settings.across, range_.least_density, settings.threads, settings.gravity,
                 settings.meeting}),
         walls_(settings.walls, soil_grid_),
         held_(grid_) {
     double volume = soil_grid_.rings() ? kTurn * grid_.layout.cell(0) : settings.across;
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
-    lightest_ = kLightest * cells_.least_density() * volume;
+    lightest_ = kLightest * range_.least_density * volume;
+    own_field_ = std::make_unique<HostField<T>>(FieldParts<T>{table_, grid_, sets_, soil_grid_, tools_, walls_},
+                                                bodies_, settings.threads, lightest_, settings.loads);
+    field_ = own_field_.get();
     light_.name = "implicit/light_nodes";
     axis_.name = "axis";
     hoops_.name = "hoop stress";
@@ -67,8 +69,8 @@ class ImplicitStep final : public Stage, public ContactReporter {
     own.part = static_cast<int>(sets_.size()) + pressed.body;
     own.speed = pressed.mean;
     // The mean over a sliver may be more than soil can bear.
-    const double most = std::min(pressed.mean, kOwn * cells_.modulus());
-    own.dt = period.cell * std::sqrt(kHeld * cells_.least_density() / most);
+    const double most = std::min(pressed.mean, kOwn * range_.modulus);
+    own.dt = period.cell * std::sqrt(kHeld * range_.least_density / most);
     limit.tighten(own);
   }
   std::string limit_text(const StepLimit& limit) const override {
@@ -85,30 +87,40 @@ class ImplicitStep final : public Stage, public ContactReporter {
     return reason;
   }
 
-  void step_ended() override { sorts_ = tools_.put_out(sets_, grid_); }
+  void step_ended() override { sorts_ = field_->put_out(); }
   bool needs_sort() const override { return sorts_; }
   void check_put(const RigidBody& body) const override { tools_.check_overlaps(body); }
   void body_put(const RigidBody& body) override { tools_.forget(body); }
 
-  void momentum_updated(StepContext& context) override {
-    timed("implicit: particles to cells", [&] {
-      if (soil_grid_.rebuild()) cells_.rebuild();
-      load();
-      cells_.gather(table_, nodes_, context.dt);
-    });
+  void momentum_updated(StepContext& context) override { solve_step(context.start, context.dt); }
+
+  // Of ImplicitSolve.
+  Grid& grid() override { return grid_; }
+  const SoilGrid& soil_grid() const override { return soil_grid_; }
+  const SoilBodies& bodies() const override { return bodies_; }
+  ToolRows<T>& tools() override { return tools_; }
+  WallRows<T>& walls() override { return walls_; }
+  double lightest() const override { return lightest_; }
+  bool loads() const override { return settings_.loads; }
+  void use(SoilField<T>& field) override {
+    own_field_.reset();
+    field_ = &field;
+  }
+  void solve_step(double start, double dt) override {
+    soil_grid_.rebuild();
+    tools_.clear();
+    walls_.clear();
+    field_->begin(dt);
     timed("implicit: contact", [&] {
-      tools_.clear();
-      walls_.clear();
-      soil_grid_.shares().by_colour("implicit: contact", settings_.threads,
-                                    [&](int block) { table_.push(block_at(block), nodes_.data()); });
-      tools_.find(nodes_, context.start, context.dt);
-      walls_.find(nodes_, context.dt);
+      tools_.find(field_->nodes(), start, dt);
+      walls_.find(field_->nodes(), dt);
+      field_->take_rows();
     });
-    timed("implicit: sweeps", [&] { solve(context.start, context.dt); });
-    timed("implicit: cells to particles", [&] {
-      cells_.take(table_, nodes_, context.dt);
-      store(context.dt);
+    timed("implicit: sweeps", [&] {
+      solve(start, dt);
+      field_->end_sweeps();
     });
+    timed("implicit: cells to particles", [&] { store(dt); });
   }
 
   void accounts(std::vector<ImpulseAccount>& list) const override {
@@ -161,59 +173,17 @@ class ImplicitStep final : public Stage, public ContactReporter {
   }
 
  private:
-  mpm_kernel::SoilBlock<T> block_at(int block) {
-    return {cells_.groups(block),
-            tools_.count(block) > 0 ? tools_.rows(block) : nullptr,
-            walls_.count(block) > 0 ? walls_.rows(block) : nullptr,
-            cells_.masks(),
-            cells_.count(block),
-            tools_.count(block),
-            walls_.count(block)};
-  }
-  /// Velocities with gravity and loads, none where walls hold, and those that conditions prescribe.
-  void load() {
-    const GridLayout& layout = grid_.layout;
-    const int per_block = layout.nodes_per_block(), dim = layout.dim();
-    nodes_.resize(soil_grid_.numbers());
-    before_.resize(soil_grid_.nodes());
-    std::fill(nodes_.begin() + soil_grid_.nodes(), nodes_.end(), Node{});
-    soil_grid_.shares().at_once("implicit: velocities of nodes", settings_.threads, [&](int block) {
-      for (int n = 0; n < per_block; ++n) {
-        Node& node = nodes_[block * per_block + n];
-        node = {};
-        if (!grid_.carries(block, n)) continue;
-        node.inverse_mass = static_cast<T>(1.0 / (grid_.mass.at(block, 0, n) + lightest_));
-        for (int k = 0; k < dim; ++k) {
-          const int axis = layout.axis(k);
-          const std::uint8_t holder = soil_grid_.holder(block * per_block + n, axis);
-          if (holder != SoilGrid::kFree && holder != SoilGrid::kPrescribed) continue;
-          const bool moves = holder == SoilGrid::kFree;
-          node.v[axis] = static_cast<T>(moves ? start_of_solve(block, k, n) : grid_.velocity.at(block, k, n));
-        }
-      }
-    });
-  }
-
-  /// The velocity of a node with the mass that the solve gives it. A force on a node that hardly has any of its own
-  /// would make momentum with what is added.
-  double start_of_solve(int block, int k, int n) const {
-    const double velocity = grid_.velocity.at(block, k, n);
-    if (!settings_.loads) return velocity;
-    const double mass = grid_.mass.at(block, 0, n), before = grid_.momentum.at(block, k, n) / mass;
-    return before + mass / (mass + lightest_) * (velocity - before);
-  }
-
   /// Modulus that one sweep resolves [Pa].
   double unit(double dt) const {
     const double cell = grid_.layout.smallest_cell();
-    return cells_.least_density() * cell * cell / (dt * dt);
+    return range_.least_density * cell * cell / (dt * dt);
   }
   /// As many as resolve the pressure that tools met in the last step and what metal bears, and not many less than in
   /// that step, so that the force does not jump with their number.
   int sweeps_needed(double dt) const {
     if (settings_.sweeps) return *settings_.sweeps;
-    const double by_tools = std::min(kStiffer * tools_.pressure_to_resolve(), kOwn * cells_.modulus());
-    const double by_metal = std::min(kStrains * cells_.yield_stress(), kOwn * cells_.metal_modulus());
+    const double by_tools = std::min(kStiffer * tools_.pressure_to_resolve(), kOwn * range_.modulus);
+    const double by_metal = std::min(kStrains * range_.yield_stress, kOwn * range_.metal_modulus);
     const double needed = std::max(by_tools, by_metal) / unit(dt);
     const int wanted = std::isfinite(needed) ? sweeps_for(needed, kMostSweeps) : 0;
     return std::max({static_cast<int>(kKept * least_), wanted, kLeastSweeps});
@@ -221,25 +191,20 @@ class ImplicitStep final : public Stage, public ContactReporter {
 
   /// Before a pair of sweeps: all unknowns go on (sweep_momentum.hpp).
   void go_on(double factor) {
-    const int per_block = grid_.layout.nodes_per_block();
-    soil_grid_.shares().at_once("implicit: extrapolation", settings_.threads, [&](int block) {
-      const int first = block * per_block;
-      table_.extrapolate(block_at(block), &nodes_[first], &before_[first], per_block, static_cast<T>(factor));
-    });
+    field_->go_on(static_cast<T>(factor));
     tools_.extrapolate_free(factor);
   }
 
   void meet() {
-    soil_grid_.shares().by_colour("implicit: sweeps over contacts", settings_.threads,
-                                  [&](int block) { table_.meet(block_at(block), nodes_.data()); });
-    tools_.meet_free(table_, nodes_);
+    field_->meet();
+    field_->show();
+    tools_.meet_free(table_, field_->nodes());
+    field_->take_back();
   }
 
   /// Sweeps the blocks that need it, then all contacts.
   void sweep(bool backwards) {
-    soil_grid_.shares().by_colour("implicit: sweeps over cells", settings_.threads, [&](int block) {
-      if (stirred_[block] != 0) changes_[block] = table_.sweep(block_at(block), nodes_.data(), backwards);
-    });
+    field_->sweep(backwards, stirred_, changes_);
     meet();
   }
 
@@ -309,77 +274,22 @@ class ImplicitStep final : public Stage, public ContactReporter {
   /// Gives the grid the velocities that were found, and books what walls took.
   void store(double dt) {
     held_.clear();
-    cells_.add_to_held(held_);
+    field_->add_to_held(held_);
     tools_.add_to_held(held_);
-    typename WallRows<T>::Impulses held = held_.walls();
-    for (auto& wall : held) {
-      for (double& one : wall) one = -one;
+    SoilDeeds deeds;
+    for (int w = 0; w < 6; ++w) {
+      for (int k = 0; k < 3; ++k) deeds.held[w][k] = -held_.walls()[w][k];
     }
-    deeds_.assign(grid_.blocks.size(), {});
-    soil_grid_.shares().at_once("implicit: velocities to the grid", settings_.threads,
-                                [&](int block) { deeds_[block] = store(block, dt); });
-    Vec3 light = Vec3::Zero();
-    double taken = 0.0;
-    for (const Deeds& deeds : deeds_) {
-      light += deeds.light;
-      taken += deeds.taken;
-      for (int w = 0; w < 6; ++w) {
-        for (int k = 0; k < 3; ++k) held[w][k] += deeds.held[w][k];
-      }
-    }
-    light_.add(light);
-    taken_ += taken;
-    if (soil_grid_.axis()) axis_.add(held[SoilGrid::kAxis][0] * Vec3::UnitX());
-    if (soil_grid_.rings()) hoops_.add(cells_.of_hoops() * Vec3::UnitX());
-    walls_.finish(nodes_, held, dt);
-    tools_.finish(nodes_, dt);
+    field_->finish(dt, deeds);
+    light_.add(deeds.light);
+    taken_ += deeds.taken;
+    if (soil_grid_.axis()) axis_.add(deeds.held[SoilGrid::kAxis][0] * Vec3::UnitX());
+    if (soil_grid_.rings()) hoops_.add(field_->of_hoops() * Vec3::UnitX());
+    walls_.finish(field_->nodes(), deeds.held, dt);
+    tools_.finish(field_->nodes(), dt);
     modulus_ = unit(dt) * modulus_of(sweeps_);
     // Sweeps that are stiffer than the soil by so much answer as the soil does.
-    if (modulus_ < kOwn * cells_.modulus()) load_ = std::max(load_, tools_.pressure().mean / modulus_);
-  }
-
-  /// Result of a step in a block beside moving the soil.
-  struct Deeds {
-    typename WallRows<T>::Impulses held{};  ///< given by walls that hold nodes [N s]
-    Vec3 light = Vec3::Zero();              ///< as light_ [N s]
-    double taken = 0.0;                     ///< as taken_ [J]
-  };
-  Deeds store(int block, double dt) {
-    const GridLayout& layout = grid_.layout;
-    const int per_block = layout.nodes_per_block();
-    Deeds deeds;
-    for (int n = 0; n < per_block; ++n) {
-      if (!grid_.carries(block, n)) continue;
-      const int number = block * per_block + n;
-      const double mass = grid_.mass.at(block, 0, n);
-      for (int k = 0; k < layout.dim(); ++k) {
-        const int axis = layout.axis(k);
-        double& velocity = grid_.velocity.at(block, k, n);
-        const double start = grid_.momentum.at(block, k, n) / mass;
-        double& force = grid_.force.at(block, k, n);
-        const std::uint8_t holder = soil_grid_.holder(number, axis);
-        if (holder == SoilGrid::kAtRest || holder == SoilGrid::kPrescribed) {  // holder stops it from there
-          const double change = velocity - start;
-          if (holder == SoilGrid::kPrescribed) deeds.taken += 0.5 * mass * change * change;
-          velocity += force / mass;
-          force = (velocity - start) / dt;
-          continue;
-        }
-        const double found = holder == SoilGrid::kFree ? static_cast<double>(nodes_[number].v[axis]) : 0.0;
-        const double by_sweeps = found - velocity;
-        if (holder != SoilGrid::kFree) {
-          deeds.held[holder][axis] += mass * by_sweeps;
-        } else {
-          deeds.light[axis] -= lightest_ * (settings_.loads ? found - start : by_sweeps);
-        }
-        // Part of the work of all forces on the velocity of the end that does not become motion.
-        const double change = found - start;
-        deeds.taken += 0.5 * mass * change * change;
-        velocity = found;
-        force = change / dt;
-      }
-    }
-    return deeds;
+    if (modulus_ < kOwn * range_.modulus) load_ = std::max(load_, tools_.pressure().mean / modulus_);
   }
 
   const mpm_kernel::SweepTable<T>& table_;
@@ -387,12 +297,13 @@ class ImplicitStep final : public Stage, public ContactReporter {
   Grid& grid_;
   std::vector<ParticleSet>& sets_;
   SoilGrid soil_grid_;
-  SoilCells<T> cells_;
+  SoilBodies bodies_;
+  SoilRange range_;
   ToolRows<T> tools_;
   WallRows<T> walls_;
   HeldImpulses held_;
-  std::vector<Node> nodes_;
-  std::vector<Node> before_;  ///< as the last pair of sweeps began with them
+  std::unique_ptr<HostField<T>> own_field_;  ///< null where a device has the soil
+  SoilField<T>* field_;                      ///< soil that the steps move
   MomentumRestart restart_;
   double lightest_ = 0.0;        ///< [kg]
   ImpulseAccount light_;         ///< impulse that light nodes were not given
@@ -401,7 +312,6 @@ class ImplicitStep final : public Stage, public ContactReporter {
   bool sorts_ = false;           ///< true if a particle was put back beyond the block that it is sorted into
   std::vector<mpm_kernel::SweepChange> changes_;  ///< change of each block in its last sweep
   std::vector<std::uint8_t> stirred_;             ///< for each block, 1 if the next sweep takes it
-  std::vector<Deeds> deeds_;                      ///< deeds of each block
   std::vector<double> pressed_;                   ///< ToolRows::pressed() after each sweep of a step [N s]
   std::int32_t least_ = 0;                        ///< sweeps that the pressure on tools asked for
   std::int32_t sweeps_ = 0;

@@ -83,16 +83,7 @@ void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T
 
 template <class T>
 SoilCells<T>::SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads)
-    : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {
-  least_density_ = bodies_.soils.front().density;
-  for (const ImplicitSoil& soil : bodies_.soils) {
-    least_density_ = std::min(least_density_, soil.density);
-    double& modulus = soil.yield_stress > 0.0 ? metal_modulus_ : modulus_;
-    modulus = std::max(modulus, soil.bulk + 4.0 / 3.0 * soil.shear);
-    yield_stress_ = std::max(yield_stress_, soil.yield_stress);
-  }
-  if (modulus_ == 0.0) modulus_ = metal_modulus_;
-}
+    : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {}
 
 // A particle's box lies in the blocks around its owner.
 template <class T>

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -100,6 +101,16 @@ std::string refused_implicit(const MaterialDefinition& material) {
 
 ImplicitSoil::ImplicitSoil(const MaterialDefinition& material) : density(material.density) {
   if (!std::visit(Reader(*this, cohesion_, metal_), material.law)) throw MaterialError(refused_implicit(material));
+}
+
+SoilRange::SoilRange(const std::vector<ImplicitSoil>& soils) : least_density(soils.front().density) {
+  for (const ImplicitSoil& soil : soils) {
+    least_density = std::min(least_density, soil.density);
+    double& largest = soil.yield_stress > 0.0 ? metal_modulus : modulus;
+    largest = std::max(largest, soil.bulk + 4.0 / 3.0 * soil.shear);
+    yield_stress = std::max(yield_stress, soil.yield_stress);
+  }
+  if (modulus == 0.0) modulus = metal_modulus;
 }
 
 }  // namespace mpm

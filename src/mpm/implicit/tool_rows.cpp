@@ -254,6 +254,16 @@ void ToolRows<T>::find(std::vector<Node>& nodes, double start, double dt) {
 }
 
 template <class T>
+void ToolRows<T>::free_nodes(std::vector<int>& numbers) const {
+  numbers.clear();
+  for (std::size_t i = begin_.back(); i < rows_.size(); ++i) {
+    numbers.insert(numbers.end(), std::begin(rows_[i].node), std::end(rows_[i].node));
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+template <class T>
 void ToolRows<T>::meet_free(const mpm_kernel::SweepTable<T>& table, std::vector<Node>& nodes) {
   constexpr int kPasses = 2;  // as of the others
   for (int pass = 0; pass < kPasses; ++pass) {

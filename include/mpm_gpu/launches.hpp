@@ -30,6 +30,24 @@ __attribute__((global)) void one_index(Kernel kernel, Visits visits, long count,
   kernel(visits == Visits::forwards ? i : visits == Visits::backwards ? count - 1 - i : i * stride % count);
 }
 
+/// Members of a team are neighbours in a warp, which waits for them after each turn.
+template <int Members, class Kernel>
+__attribute__((global)) void one_member(Kernel kernel, Visits visits, long teams, long stride, int turns) {
+  static_assert(Members == 4 || Members == 8 || Members == 16, "a warp of 32 has whole teams");
+  const unsigned thread = __nvvm_read_ptx_sreg_tid_x();
+  const long i = static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + thread;
+  const long of = i / Members;
+  if (of >= teams) return;
+  const long team = visits == Visits::forwards    ? of
+                    : visits == Visits::backwards ? teams - 1 - of
+                                                  : of * stride % teams;
+  const unsigned own = ((1U << Members) - 1U) << (thread % 32U / Members * Members);
+  for (int turn = 0; turn < turns; ++turn) {
+    kernel(team, turn, static_cast<int>(i % Members));
+    __nvvm_bar_warp_sync(own);
+  }
+}
+
 }  // namespace mpm_gpu
 #endif
 
@@ -53,6 +71,23 @@ class Launches {
 #else
     static_assert(sizeof(Kernel) == 0, "this file has a kernel: it is to be compiled as CUDA");
     static_cast<void>(name), static_cast<void>(count), static_cast<void>(kernel);
+#endif
+  }
+
+  /// kernel(team, turn, member) for teams of so many members: all members of a turn at once, whatever their order, and
+  /// the turns of a team one after another. Teams do not wait for each other.
+  template <int Members, class Kernel>
+  void in_turns(const char* name, long teams, int turns, const Kernel& kernel) {
+    static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel goes to a device as bytes");
+    static_assert(sizeof(Kernel) <= 4000, "arguments of a kernel take 4 kB at most");
+#ifdef __CUDA__
+    Kernel copy = kernel;
+    long stride = stride_of(teams);
+    void* arguments[] = {&copy, &visits_, &teams, &stride, &turns};
+    card::launch(name, reinterpret_cast<const void*>(&one_member<Members, Kernel>), teams * Members, arguments);
+#else
+    static_assert(sizeof(Kernel) == 0, "this file has a kernel: it is to be compiled as CUDA");
+    static_cast<void>(name), static_cast<void>(teams), static_cast<void>(turns), static_cast<void>(kernel);
 #endif
   }
 

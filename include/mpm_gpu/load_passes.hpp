@@ -103,10 +103,11 @@ struct LoadPowerKernel {
 
   void operator()(long node) const {
     const NodeView& of = step.nodes;
+    const double back = step.settings.solved ? 0.0 : 0.5 * step.settings.dt;
     double sum = 0.0;
     for (int c = 0; c < Dim; ++c) {
       const long at = c * of.nodes + node;
-      sum += of.load[at] * (of.velocity[at] - 0.5 * step.settings.dt * of.acceleration[at]);
+      sum += of.load[at] * (of.velocity[at] - back * of.acceleration[at]);
     }
     power[node] = sum;
   }

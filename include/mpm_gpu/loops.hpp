@@ -22,6 +22,18 @@ class Loops {
     parts(name, count, &Pass<Kernel>::run, &pass);
   }
 
+  /// kernel(team, turn, member) for teams of so many members: all members of a turn at once, whatever their order, and
+  /// the turns of a team one after another. Teams do not wait for each other.
+  template <int Members, class Kernel>
+  void in_turns(const char* name, long teams, int turns, const Kernel& kernel) {
+    const bool upwards = visits_ == Visits::forwards;
+    for_each(name, teams, [=](long team) {
+      for (int turn = 0; turn < turns; ++turn) {
+        for (int m = 0; m < Members; ++m) kernel(team, turn, upwards ? m : Members - 1 - m);
+      }
+    });
+  }
+
   /// to[i] = sum of from[0 … i - 1]; returns the sum of all. The two may be one array.
   std::uint32_t exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count);
 

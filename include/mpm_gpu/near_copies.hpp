@@ -36,6 +36,8 @@ class NearCopies {
   void download(Executor& run, const NodeView& nodes, const double* from, int components, double* to);
   /// Copies places, velocities and `components` of the deformation gradient: [component][particle].
   void download_particles(Executor& run, const StepView<T>& step, int components, std::vector<double>& to);
+  /// Takes places as download_particles() gave them, [axis][particle].
+  void upload_places(Executor& run, const StepView<T>& step, const std::vector<double>& from);
 
   /// Takes velocities for the strain.
   void upload_for_strain(Executor& run, const StepView<T>& step, const double* velocity);

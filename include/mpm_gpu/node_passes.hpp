@@ -58,7 +58,7 @@ struct ForceKernel {
     number_along<T, kDim>(step, node, number);
     const double mass = to.mass[node], dt = step.settings.dt;
     double force[kDim] = {};
-    if (mass > step.grid.least_mass) {
+    if (mass > step.grid.least_mass && !step.settings.solved) {
       const auto add = [&](const SetView& set, long p, const auto& stencil, const int* n) {
         const auto stress = Geometry::load_symmetric(mpm::WideReader<T>{step.particles.tau, 1}, static_cast<int>(p));
         const W of_particle = mass_of(step.particles, set, p);

@@ -13,7 +13,7 @@
 namespace mpm_gpu {
 
 enum class Shape : int { ugimp, ugimp_stretch, bspline2, bspline3 };
-enum class Update : int { usf, usl, usavg };
+enum class Update : int { usf, usl, usavg, implicit };
 
 /// The passes of a step, which Solver puts in their order.
 template <class T>

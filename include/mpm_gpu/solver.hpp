@@ -11,7 +11,8 @@
 //
 // Strain last (USL): momentum, force, move, then momentum, gradient and the law again, from the places of the step's
 // start: particles move to other places, which become theirs at the end. USAVG does half of the strain at each time.
-// Stages that a scene needs beside these (stage.hpp) act between the passes.
+// Implicit: momentum, the velocity with gravity and loads alone, the stage that solves the step (implicit_soil.hpp),
+// move. Stages that a scene needs beside these (stage.hpp) act between the passes.
 //
 // Nothing is allocated in a step after make_room(), which is called between sync periods, but for lists of the nodes
 // near rigid bodies and of those that moving regions hold, where they outgrow their room.
@@ -130,6 +131,8 @@ class Solver {
   PutAround& put_around() { return around_; }
   /// Forgets by how many lengths of periodic axes particles were put around.
   void clear_turns() { around_.clear_turns(run_); }
+  /// Particles have been moved between two steps: they are sorted before the next one.
+  void sort_next() { must_sort_ = true; }
   /// Walls will act once more in a step, after a stage that moves their nodes.
   void let_walls_act_again();
   /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
@@ -153,6 +156,8 @@ class Solver {
   void average(const StepView<T>& now);
   void momentum(const StepView<T>& now) { passes_->momentum[method_.motion == mpm_kernel::kAffine](run_, now); }
   StepView<T> view(double dt);
+  /// True if strain is found at the end of a step.
+  bool strains_last() const { return method_.update == Update::usl || method_.update == Update::usavg; }
   /// Lets the stages act at a hook.
   void act(mpm::Hook hook, const StepView<T>& now) {
     for (auto& stage : stages_) stage->act(hook, run_, now);

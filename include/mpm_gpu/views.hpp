@@ -181,6 +181,7 @@ struct StepSettings {
   int terms;                ///< number of terms of exp(grad v strain_dt)
   int increments;           ///< number of increments of XPIC or FMPM
   double part;              ///< part of the next increment that particles take over, where XPIC is mixed with FLIP
+  bool solved;              ///< a stage solves an implicit step: no internal force, and loads work on its end
   bool driven;              ///< forces act on the nodes beside the internal ones and gravity
   double node_damping;      ///< rate of a force on the nodes, which is one of these [1/s]
   bool damped;              ///< damping acts in the particles' update, or its energies are asked for

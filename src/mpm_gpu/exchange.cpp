@@ -48,7 +48,8 @@ GridView view_of(const SimulationDefinition& d) {
     view.blocks_along[k] = (layout.last_node(k) + 1 + kBeside) / kEdge + 2;
     for (int side = 0; side < 2; ++side) {
       const mpm::WallDefinition& wall = d.walls[2 * layout.axis(k) + side];
-      view.faces[2 * k + side] = face_of(wall.kind);
+      // The solve of an implicit step has rows of contact for walls, or holds their nodes itself.
+      view.faces[2 * k + side] = d.method.update == mpm::UpdateScheme::implicit ? Face::open : face_of(wall.kind);
       view.friction[2 * k + side] =
           wall.friction.stick ? std::numeric_limits<double>::infinity() : wall.friction.coefficient;
     }
@@ -77,9 +78,9 @@ std::optional<Shape> shape_of(mpm::ShapeKind kind) {
 Method method_of(const SimulationDefinition& d) {
   Method method;
   method.shape = shape_of(d.method.shape).value();
-  method.update = d.method.update == mpm::UpdateScheme::usl     ? Update::usl
-                  : d.method.update == mpm::UpdateScheme::usavg ? Update::usavg
-                                                                : Update::usf;
+  static_assert(static_cast<int>(Update::usavg) == static_cast<int>(mpm::UpdateScheme::usavg));
+  static_assert(static_cast<int>(Update::implicit) == static_cast<int>(mpm::UpdateScheme::implicit));
+  method.update = static_cast<Update>(d.method.update);
   const mpm::Transfer& transfer = d.method.transfer;
   method.flip = transfer.flip;
   if (transfer.kind == mpm::TransferKind::apic) {

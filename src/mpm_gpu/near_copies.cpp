@@ -117,6 +117,20 @@ void NearCopies<T>::download_particles(Executor& run, const StepView<T>& step, i
 }
 
 template <class T>
+void NearCopies<T>::upload_places(Executor& run, const StepView<T>& step, const std::vector<double>& from) {
+  const int dim = dim_;
+  const long count = particles_;
+  room_.grow(count * dim);
+  room_.upload(from.data(), count * dim);
+  const double* room = room_.data();
+  const std::uint32_t* particle = particle_.data();
+  const ParticleView<T> particles = step.particles;
+  run.for_each("gpu: particles near bodies", count, [=](long i) {
+    for (int k = 0; k < dim; ++k) particles.x[k][particle[i]] = room[k * count + i];
+  });
+}
+
+template <class T>
 template <int Dim, class Kernel>
 void NearCopies<T>::each_returned(Executor& run, const StepView<T>& step, const Kernel& kernel) {
   const GridView grid = step.grid;

@@ -49,7 +49,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   sets_there_.upload(sets_);
   for (const SetView& set : sets_) count_ += set.count;
   for (int c = 0; c < dim * dim; ++c) gradient_[c].fit(count_);
-  for (int k = 0; k < dim && method.update != Update::usf; ++k) next_x_[k].fit(count_);
+  for (int k = 0; k < dim && strains_last(); ++k) next_x_[k].fit(count_);
   for (int k = 0; k < dim && passes_->domains != nullptr; ++k) domain_[k].fit(count_);
   node_.fit(count_);
   id_room_.fit(count_);
@@ -136,7 +136,7 @@ StepView<T> Solver<T>::view(double dt) {
   particles.count = count_;
   for (int k = 0; k < 3; ++k) {
     particles.x[k] = store_.x[k].data();
-    particles.next_x[k] = method_.update == Update::usf ? particles.x[k] : next_x_[k].data();
+    particles.next_x[k] = strains_last() ? next_x_[k].data() : particles.x[k];
     particles.v[k] = store_.v[k].data();
     particles.domain[k] = domain_[k].data();
   }
@@ -189,7 +189,7 @@ void Solver<T>::step(double dt, double start) {
   momentum(now);
   average(now);
   act(mpm::Hook::momentum_gathered, now);
-  if (method_.update != Update::usl) {
+  if (method_.update == Update::usf || halves) {
     act(mpm::Hook::before_strain, now);
     strain(now, halves ? 0.5 * dt : dt);
   }
@@ -199,7 +199,7 @@ void Solver<T>::step(double dt, double start) {
   filter(now);
   act(mpm::Hook::grid_advanced, now);
   passes_->move[method_.motion][static_cast<int>(counting(now.settings))](run_, now);
-  if (method_.update != Update::usf) {
+  if (strains_last()) {
     StepView<T> at_end = now;
     at_end.nodes.moved = moved_[1].data();
     at_end.nodes.momentum = now.nodes.acceleration;  // not needed any more; accounts need the momentum of the start
@@ -254,10 +254,10 @@ void Solver<T>::filter(StepView<T> now) {
 template <class T>
 template <int Dim>
 void Solver<T>::account(double dt) {
-  constexpr double kStrainAtStart[] = {1.0, 0.0, 0.5};  // in the order of Update
+  constexpr double kStrainAtStart[] = {1.0, 0.0, 0.5, 0.0};  // in the order of Update
   const WallAccount<Dim> walls{grid_,
                                view(dt).nodes,
-                               method_.update == Update::usf ? nullptr : nodal_[2].data(),
+                               strains_last() ? nodal_[2].data() : nullptr,
                                moved_[1].data(),
                                dt,
                                kStrainAtStart[static_cast<int>(method_.update)]};

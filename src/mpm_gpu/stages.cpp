@@ -7,6 +7,7 @@
 #include "mpm/modules/shipped_modules.hpp"
 #include "mpm_gpu/damping.hpp"
 #include "mpm_gpu/error.hpp"
+#include "mpm_gpu/implicit_soil.hpp"
 #include "mpm_gpu/leaving.hpp"
 #include "mpm_gpu/loads.hpp"
 #include "mpm_gpu/mixture.hpp"
@@ -35,7 +36,11 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
   const mpm::GridLayout layout(dimensions(d.geometry), d.grid.cell, d.grid.min, d.grid.max);
   mpm::Mechanics* mechanics = modules == nullptr ? nullptr : &modules->mechanics;
   const mpm::MethodDefinition& method = d.method;
-  if (modules != nullptr && modules->contact != nullptr) {
+  if (method.update == mpm::UpdateScheme::implicit) {
+    auto* solve = modules == nullptr ? nullptr : modules->modules.template first<mpm::ImplicitSolve<T>>();
+    if (solve == nullptr) throw GpuError("gpu: implicit steps are those of a simulation's modules");
+    solver.add(std::make_unique<ImplicitSoil<T>>(*solve, sets, d.across(), solver));
+  } else if (modules != nullptr && modules->contact != nullptr) {
     solver.let_walls_act_again();
     solver.add(std::make_unique<NearBodies<T>>(*modules->contact, solver.grid()));
   }

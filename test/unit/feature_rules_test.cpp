@@ -224,7 +224,8 @@ std::set<Feature> had_by(const std::vector<Feature>& asked) {
   };
   if (std::any_of(asked.begin(), asked.end(), is_of_body)) had.insert(Feature::rigid_bodies);
   if (has(Feature::conditions_beside_contact)) had.insert(Feature::conditions);
-  if (has(Feature::conditions) && (has(Feature::rigid_bodies) || has(Feature::frictional_walls))) {
+  if (has(Feature::conditions) &&
+      (has(Feature::rigid_bodies) || has(Feature::frictional_walls) || has(Feature::implicit_steps))) {
     had.insert(Feature::conditions_beside_contact);
   }
   if (has(Feature::loads_beside_cut)) had.insert(Feature::cut_particles);

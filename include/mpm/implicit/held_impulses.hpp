@@ -34,6 +34,12 @@ class HeldImpulses {
       if (grid_.layout.axis(k) == axis) grid_.force.at(node / per_block, k, node % per_block) += impulse;
     }
   }
+  /// Impulses of all nodes, of walls.
+  void add(const double (&walls)[6][3]) {
+    for (std::size_t w = 0; w < 6; ++w) {
+      for (std::size_t a = 0; a < 3; ++a) walls_[w][a] += walls[w][a];
+    }
+  }
   const OfWalls& walls() const { return walls_; }
 
  private:

@@ -41,6 +41,18 @@ struct SoilBodies {
   std::vector<ImplicitSoil> soils;
 };
 
+/// Tells what a soil's particles give to cells and take from them; where they are is left open.
+template <class T>
+void describe(const ImplicitSoil& soil, mpm_kernel::SoilParticles<T>& particles) {
+  particles.density = soil.density;
+  particles.bulk = soil.bulk;
+  particles.shear = soil.shear;
+  particles.per_strain = soil.per_strain;
+  particles.strain_of_shear = soil.strain_of_shear;
+  particles.dilation_start = soil.dilation_start;
+  particles.dilation_slope = soil.dilation_slope;
+}
+
 /// T: precision of the sweeps, that of the particles.
 template <class T>
 class SoilCells {

@@ -56,6 +56,8 @@ class SoilGrid {
   const std::vector<WallNode>& frictional() const { return frictional_; }
 
   const BlockShares& shares() const { return shares_; }
+  /// Blocks of one of 2^dim colours, which share no node with each other; sweeps take the colours in this order.
+  const std::vector<int>& blocks_of_colour(int colour) const { return swept_.owners_of_colour(colour); }
   /// True if test(block) is for a block or one of those around it.
   template <class Test>
   bool any_around(int block, Test&& test) const {

@@ -35,6 +35,8 @@ class WallRows {
   }
   Row* rows(int block) { return rows_.data() + begin_[block]; }
   int count(int block) const { return begin_[block + 1] - begin_[block]; }
+  /// Number of the rows of all blocks, which follow each other.
+  int count() const { return begin_.back(); }
   /// Books the impulses of rows, with the nodes as they are now, and those of nodes that are held; keeps the rows' for
   /// the next step.
   void finish(const std::vector<Node>& nodes, const Impulses& of_held, double dt);

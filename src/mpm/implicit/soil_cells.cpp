@@ -135,13 +135,7 @@ mpm_kernel::SoilParticles<T> SoilCells<T>::view_of(int body) const {
   view.work = set.history[soil.work_at].template data<T>();
   view.masses = set.masses.empty() ? nullptr : set.masses[0].template data<T>();
   view.mass = set.mass;
-  view.density = soil.density;
-  view.bulk = soil.bulk;
-  view.shear = soil.shear;
-  view.per_strain = soil.per_strain;
-  view.strain_of_shear = soil.strain_of_shear;
-  view.dilation_start = soil.dilation_start;
-  view.dilation_slope = soil.dilation_slope;
+  describe(soil, view);
   return view;
 }
 

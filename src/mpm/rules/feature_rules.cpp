@@ -132,10 +132,11 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
      [](D d, R) { return named_in(d.rigid_bodies, [](const auto& body) { return body.collide.has_value(); }); }},
     {Feature::conditions, "velocity conditions", "boundaries.conditions",
      [](D d, R) { return found_if(!d.conditions.empty()); }},
-    {Feature::conditions_beside_contact, "velocity conditions beside rigid bodies or frictional walls",
+    {Feature::conditions_beside_contact, "velocity conditions beside rigid bodies, frictional walls or implicit steps",
      "boundaries.conditions",
      [](D d, R) {
-       const bool contact = !d.rigid_bodies.empty() || wall_of(d, WallKind::frictional).has_value();
+       const bool contact = !d.rigid_bodies.empty() || wall_of(d, WallKind::frictional).has_value() ||
+                            d.method.update == UpdateScheme::implicit;
        return found_if(!d.conditions.empty() && contact);
      }},
     {Feature::contact_at_nodes, "contact at nodes", "contact.method",
@@ -348,8 +349,6 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::device, Feature::line, kNoKernel, kOnCpu},
       {Feature::device, Feature::point_particles, kNoKernel, "use another shape, such as ugimp, or --device cpu"},
       {Feature::device, Feature::sheared_boxes, kNoKernel, "use another shape, such as ugimp, or --device cpu"},
-      {Feature::device, Feature::implicit_steps, kNoKernel,
-       "run it with --device cpu, or write method.update: usavg, also where method: auto has chosen them"},
       {Feature::device, Feature::average_dilatation, kNoKernel, kOnCpu},
       {Feature::device, Feature::own_laws, "its code is not in the kernels of such a processor", kOnCpu},
       {Feature::device, Feature::body_laws, "all bodies are in one velocity field there", kOnCpu},

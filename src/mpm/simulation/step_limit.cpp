@@ -158,7 +158,10 @@ StepLimit Simulation::State::survey_motion() const {
 }
 
 StepLimit Simulation::State::survey_material() {
-  if (definition.method.update == UpdateScheme::implicit) return survey_motion();
+  if (definition.method.update == UpdateScheme::implicit) {
+    if (device) fetch(Device::Numbers::motion);
+    return survey_motion();
+  }
   const int dim = layout().dim();
   const double cell = layout().smallest_cell();
   StepLimit limit;

@@ -1,0 +1,121 @@
+// Implicit steps on a device: its particles, and cells and nodes of the soil, as the solver's own implicit step moves
+// them (mpm/implicit/soil_field.hpp). That step decides on the host how often the soil is swept, and finds the rows of
+// contact there; so tools, robots, walls, budget, accounts and checkpoints are the solver's own. Cells are swept in the
+// solver's order: blocks of one colour at once, of a block the cells that share no node.
+//
+// Weak: all nodes are copied to the host and back for the rows of contact, and once more at the end; a sweep waits for
+// the host, which looks at its change, and copies the rows' impulses; for free bodies it copies the nodes around them
+// twice. Which blocks are in use is found on the host after each sort. A cell takes some 600 bytes in single precision,
+// with what reserves twice the room in use.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/implicit/implicit_step.hpp"
+#include "mpm_gpu/near_copies.hpp"
+#include "mpm_gpu/soil_passes.hpp"
+#include "mpm_gpu/solver.hpp"
+#include "mpm_gpu/stage.hpp"
+
+namespace mpm_gpu {
+
+template <class T>
+class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
+ public:
+  using Node = mpm_kernel::SoilNode<T>;
+
+  /// All outlive this object, which takes the place of the soil in `solve`. `sets`: of the simulation.
+  ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, double across,
+               Solver<T>& solver);
+
+  // Of Stage.
+  void make_room(Executor& run, long nodes) override;
+  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
+  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
+  std::size_t bytes() const override;
+
+  // Of SoilField.
+  void begin(double dt) override;
+  std::vector<Node>& nodes() override { return nodes_; }
+  void take_rows() override;
+  void meet() override;
+  void show() override;
+  void take_back() override;
+  void go_on(T factor) override;
+  void sweep(bool backwards, const std::vector<std::uint8_t>& marked,
+             std::vector<mpm_kernel::SweepChange>& changes) override;
+  void end_sweeps() override;
+  void add_to_held(mpm::HeldImpulses& held) override;
+  void finish(double dt, mpm::SoilDeeds& deeds) override;
+  double of_hoops() const override { return 0.0; }
+  bool put_out() override;
+
+ private:
+  /// Lets the host's grid have the blocks of the table.
+  void take_blocks();
+  /// Takes holders of nodes and colours of blocks from the host's grid.
+  void take_grid();
+  SoilView<T> view();
+  RowsView<T> rows();
+  mpm_kernel::SoilParticles<T> particles_of(int body) const;
+  /// Number in the table of a node of the host's grid.
+  std::int32_t there(int node) const {
+    return node < static_cast<int>(map_.size()) ? map_[static_cast<std::size_t>(node)] : none_;
+  }
+  void download_nodes();
+  void upload_rows();
+  /// Copies the impulses of so many rows of tools, or of walls, to the host's.
+  void download_impulses(long rows, long walls);
+
+  mpm::ImplicitSolve<T>& solve_;
+  Solver<T>& solver_;
+  const mpm::GridLayout layout_;
+  double across_, radius_;  ///< radius of the ball around a block in which its particles are at a step's end [m]
+  const SoilPassTable<T>& passes_;
+  std::vector<mpm_kernel::SoilConstants> constants_;  ///< constants of each soil
+  std::vector<mpm_kernel::SoilParticles<T>> shapes_;  ///< of each body, without pointers
+  std::vector<std::uint64_t> sets_of_;                ///< bits of the sets of each soil
+
+  Executor* run_ = nullptr;
+  StepView<T> step_{};  ///< of the step under way, or of the last one
+  double start_ = 0.0;
+  long sorts_ = -1;
+  bool fresh_ = false;                ///< blocks have been taken, but not what depends on them
+  std::vector<Node> nodes_;           ///< on the host
+  std::int32_t none_ = 0;             ///< number in the table that stands for none
+  std::vector<std::int32_t> map_;     ///< number in the table of each node on the host
+  std::vector<std::int32_t> blocks_;  ///< and of each block
+  std::array<long, 9> colour_{};      ///< where the blocks of each colour begin in order_
+  std::array<long, 9> touched_{};     ///< and those with rows in ranges_there_
+  std::vector<std::int32_t> list_, free_;
+  std::vector<int> free_nodes_;
+  std::vector<std::uint64_t> keys_, owners_;
+  std::vector<std::size_t> ends_;
+  std::vector<std::uint8_t> bytes_, marked_;
+  std::vector<T> impulses_;
+  std::vector<Node> shown_;
+  std::vector<mpm_kernel::ContactRow<T>> rows_;
+  std::vector<mpm_kernel::WallRow<T>> walls_;
+  std::vector<mpm_kernel::SweepChange> changes_;
+  std::vector<std::uint32_t> ranges_, near_, ids_;
+  std::vector<double> surfaces_, places_;
+  NearCopies<T> copies_;
+
+  Buffer<Node> node_, before_, node_room_;
+  Buffer<mpm_kernel::SoilGroup<T, 1>> cell_;
+  Buffer<mpm_kernel::SoilMask<T, 1>> mask_;
+  Buffer<mpm_kernel::SoilMotion<T>> motion_;
+  std::array<Buffer<T>, kSoilNumbers> number_;
+  Buffer<std::uint8_t> holder_, marked_there_;
+  Buffer<std::int32_t> order_, map_there_, free_there_, ranges_there_;
+  Buffer<mpm_kernel::ContactRow<T>> row_;
+  Buffer<mpm_kernel::WallRow<T>> wall_;
+  Buffer<T> impulse_room_;
+  Buffer<mpm_kernel::SweepChange> change_, change_room_;
+  Buffer<HeldSums> of_held_;
+  Buffer<DeedSums> of_deeds_;
+};
+
+}  // namespace mpm_gpu

@@ -1,0 +1,448 @@
+// The kernels of implicit steps: a cell, a node, a particle or a row of contact an index, by the solver's own functions
+// of one cell (kernel/soil_relax.hpp), one row (kernel/soil_contact.hpp) and one particle (kernel/soil_exchange.hpp).
+// For code of one lane alone. Sums of a cell are those of the particles that are nearest to its nodes, set by set, node
+// by node, in their sorted order.
+#pragma once
+
+#include "mpm/kernel/soil_contact.hpp"
+#include "mpm/kernel/soil_exchange.hpp"
+#include "mpm/kernel/soil_nodes.hpp"
+#include "mpm/kernel/soil_relax.hpp"
+#include "mpm_gpu/soil_passes.hpp"
+#include "mpm_gpu/stencil.hpp"
+
+namespace mpm_gpu {
+
+template <int Dim>
+constexpr mpm_kernel::CellKind kKindOf = Dim == 3 ? mpm_kernel::CellKind::space : mpm_kernel::CellKind::plane;
+template <int Dim>
+constexpr int kMembers = 1 << Dim;  ///< cells of a turn, and turns of a block
+template <int Dim>
+constexpr int world_axis(int k) {
+  return Dim == 3 ? k : 2 * k;
+}
+
+/// Number of a cell of a soil, by the block and the place in it of the node at its lower corner.
+template <int Dim>
+long cell_number(const NodeView& nodes, int soil, long block, int place) {
+  return soil * nodes.nodes + block * nodes_of_block(Dim) + place;
+}
+
+template <class T, class Geometry>
+struct SoilNumbersKernel {
+  mpm_kernel::SoilParticles<T> particles;
+  SoilView<T> soil;
+  std::uint32_t first;
+
+  void operator()(long i) const {
+    const int p = static_cast<int>(first + i);
+    mpm::Wide<T> numbers[kSoilNumbers];
+    mpm::soil_numbers<Geometry>(particles, p, 1, numbers);
+    for (int n = 0; n < kSoilNumbers; ++n) numbers[n].store(soil.number[n] + p);
+  }
+};
+
+template <class T, int Dim>
+struct SoilLoadKernel {
+  StepView<T> step;
+  SoilView<T> soil;
+
+  void operator()(long n) const {
+    const NodeView& from = step.nodes;
+    mpm_kernel::SoilNode<T> node{};
+    const double mass = from.mass[n];
+    if (mass > step.grid.least_mass) {
+      node.inverse_mass = static_cast<T>(1.0 / (mass + soil.lightest));
+      for (int k = 0; k < Dim; ++k) {
+        const int axis = world_axis<Dim>(k);
+        if (soil.holder[3 * n + axis] != kFreeComponent) continue;
+        const long at = k * from.nodes + n;
+        node.v[axis] = static_cast<T>(mpm_kernel::start_of_solve(mass, from.momentum[at] / mass, from.velocity[at],
+                                                                 soil.lightest, soil.loads));
+      }
+    }
+    soil.node[n] = node;
+  }
+};
+
+/// The cuts of a particle's box, whose nearest node is number 0 along each axis.
+template <class T, int Dim>
+struct SoilBox {
+  mpm::SoilCut<T> along[Dim];
+
+  SoilBox(const StepView<T>& step, const double* half, long p) {
+    for (int k = 0; k < Dim; ++k) {
+      const double cells = in_cells(step.grid, k, step.particles.x[k][p]), at = cells - nearest_node(cells);
+      along[k].find(at, at - half[k], at + half[k], 1.0 / (2.0 * half[k]));
+    }
+  }
+};
+
+template <class T, class Geometry>
+struct SoilCellKernel {
+  static constexpr int kDim = Geometry::kDim;
+  StepView<T> step;
+  SoilView<T> soil;
+  mpm_kernel::SoilConstants constants;
+  std::uint64_t sets;
+  double dt;
+  int number;
+
+  void operator()(long i) const {
+    constexpr int kPerBlock = nodes_of_block(kDim);
+    const long block = i / kPerBlock;
+    const int place = static_cast<int>(i % kPerBlock);
+    Local<kDim> local{};
+    cell_at<kDim>(place / kMembers<kDim>, place % kMembers<kDim>, local.at);
+    long corner[kMembers<kDim>];
+    for (int e = 0; e < kMembers<kDim>; ++e) {
+      Local<kDim> there = local;
+      for (int k = 0; k < kDim; ++k) there.at[k] += e >> k & 1;
+      corner[e] = number_of<kDim>(step.nodes, block, there);
+    }
+    const mpm_kernel::SoilSums<T> sums = sums_of(corner);
+    const long cell = cell_number<kDim>(step.nodes, number, block, place);
+    mpm_kernel::SoilGroup<T, 1>& group = soil.cell[cell];
+    group.place[0] = -1;
+    if (!(sums.volume > T(0))) return;
+    group.place[0] = static_cast<int>(cell);
+    find_nodes(corner, cell, group);
+    mpm_kernel::SoilPlaces<T, 1> places{};
+    for (int k = 0; k < kDim; ++k) places.inverse_cell[world_axis<kDim>(k)] = static_cast<T>(step.grid.inverse_cell[k]);
+    mpm::begin_soil_group(group, constants);
+    mpm::make_soil_cell(sums, constants, dt, 0, group, places);
+    mpm::prepare<T, kKindOf<kDim>>(group, places, soil.node, group.mask >= 0 ? soil.mask + cell : nullptr);
+    mpm::project<T>(group);
+  }
+
+ private:
+  mpm_kernel::SoilSums<T> sums_of(const long* corner) const {
+    mpm_kernel::SoilSums<T> sums{};
+    for (int s = 0; s < step.set_count; ++s) {
+      if ((sets >> s & 1) == 0) continue;
+      const SetView set = step.sets_there[s];
+      for (int e = 0; e < kMembers<kDim>; ++e) {
+        if (corner[e] < 0) continue;
+        const long row = s * step.nodes.nodes + corner[e];
+        for (std::uint32_t p = step.nodes.begin[row]; p < step.nodes.end[row]; ++p) add(sums, set, p, e);
+      }
+    }
+    return sums;
+  }
+  /// Adds the piece in this cell of a particle that is nearest to corner `e`.
+  void add(mpm_kernel::SoilSums<T>& sums, const SetView& set, std::uint32_t p, int e) const {
+    const SoilBox<T, kDim> box(step, set.half, p);
+    T part[kDim], middle[kDim];
+    for (int k = 0; k < kDim; ++k) {
+      const int piece = -(e >> k & 1) - box.along[k].cell;
+      if (piece < 0 || piece > 1) return;
+      part[k] = box.along[k].part[piece];
+      middle[k] = box.along[k].middle[piece];
+      if (!(part[k] > T(0))) return;
+    }
+    T numbers[kSoilNumbers];
+    for (int n = 0; n < kSoilNumbers; ++n) numbers[n] = soil.number[n][p];
+    mpm::add_piece<Geometry>(sums, numbers, part, middle);
+  }
+  /// The nodes of the cell, and which of their components are held.
+  void find_nodes(const long* corner, long cell, mpm_kernel::SoilGroup<T, 1>& group) const {
+    group.mask = -1;
+    for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
+      const long node = e < kMembers<kDim> && corner[e] >= 0 ? corner[e] : step.nodes.nodes;
+      group.node[e][0] = static_cast<int>(node);
+      if (node == step.nodes.nodes) continue;
+      for (int a = 0; a < 3; ++a) {
+        if (soil.holder[3 * node + a] != kFreeComponent) group.mask = static_cast<int>(cell);
+      }
+    }
+    if (group.mask < 0) return;
+    for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
+      const int node = group.node[e][0];
+      for (int a = 0; a < 3; ++a) {
+        const bool free = node == step.nodes.nodes || soil.holder[3L * node + a] == kFreeComponent;
+        soil.mask[cell].free[a][e][0] = free ? T(1) : T(0);
+      }
+    }
+  }
+};
+
+template <class T, int Dim>
+struct SoilPushKernel {
+  SoilView<T> soil;
+  NodeView nodes;
+  const std::int32_t* blocks;
+
+  void operator()(long team, int turn, int member) const {
+    const int place = turn % kMembers<Dim> * kMembers<Dim> + member;
+    const mpm_kernel::SoilGroup<T, 1>& group =
+        soil.cell[cell_number<Dim>(nodes, turn / kMembers<Dim>, blocks[team], place)];
+    if (group.place[0] >= 0) mpm::push_group<T, kKindOf<Dim>>(group, soil.mask, soil.node);
+  }
+};
+
+template <class T, int Dim>
+struct SoilSweepKernel {
+  SoilView<T> soil;
+  NodeView nodes;
+  const std::int32_t* blocks;
+  const std::uint8_t* marked;
+  bool backwards;
+
+  void operator()(long team, int turn, int member) const {
+    const long block = blocks[team];
+    if (marked[block] == 0) return;
+    mpm_kernel::SweepChange& change = soil.change[block * kMembers<Dim> + member];
+    if (turn == 0) change = {0.0, 0.0};
+    const int turns = soil.soils * kMembers<Dim>, at = backwards ? turns - 1 - turn : turn;
+    const int place = at % kMembers<Dim> * kMembers<Dim> + member;
+    mpm_kernel::SoilGroup<T, 1>& group = soil.cell[cell_number<Dim>(nodes, at / kMembers<Dim>, block, place)];
+    if (group.place[0] < 0) return;
+    mpm::Register<T> size{}, moved{};
+    mpm::relax<T, kKindOf<Dim>>(group, soil.mask, soil.node, size, moved);
+    change.size += static_cast<double>(mpm::lane_of(size, 0));
+    change.change += static_cast<double>(mpm::lane_of(moved, 0));
+  }
+};
+
+template <class T, int Dim>
+struct SoilChangesKernel {
+  const mpm_kernel::SweepChange* change;
+  mpm_kernel::SweepChange* to;
+
+  void operator()(long block) const {
+    mpm_kernel::SweepChange sum{0.0, 0.0};
+    for (int m = 0; m < kMembers<Dim>; ++m) {
+      sum.size += change[block * kMembers<Dim> + m].size;
+      sum.change += change[block * kMembers<Dim> + m].change;
+    }
+    to[block] = sum;
+  }
+};
+
+/// `now` goes on by `factor` times its change, and `before` becomes what it was.
+template <class T>
+void go_on_by(T factor, T& now, T& before) {
+  const T was = now;
+  if (factor != T(0)) now += factor * (was - before);
+  before = was;
+}
+
+template <class T>
+struct SoilGoOnKernel {
+  SoilView<T> soil;
+  long nodes, cells;
+  T factor;
+
+  void operator()(long i) const {
+    if (i < nodes) {
+      for (int a = 0; a < 3; ++a) go_on_by(factor, soil.node[i].v[a], soil.before[i].v[a]);
+    }
+    if (i >= cells || soil.cell[i].place[0] < 0) return;
+    for (int s = 0; s < 6; ++s) go_on_by(factor, soil.cell[i].stress[s][0], soil.cell[i].before[s][0]);
+  }
+};
+
+template <class T>
+struct RowsGoOnKernel {
+  RowsView<T> rows;
+  long tools;
+  T factor;
+
+  void operator()(long i) const {
+    for (int a = 0; a < 3; ++a) {
+      if (i < tools) {
+        go_on_by(factor, rows.row[i].impulse[a], rows.row[i].before[a]);
+      } else {
+        go_on_by(factor, rows.wall[i - tools].impulse[a], rows.wall[i - tools].before[a]);
+      }
+    }
+  }
+};
+
+template <class T>
+struct SoilMeetKernel {
+  SoilView<T> soil;
+  RowsView<T> rows;
+
+  void operator()(long i) const {
+    const std::int32_t* range = rows.range + 4 * i;
+    for (std::int32_t w = range[2]; w < range[3]; ++w) mpm::touch_wall(rows.wall[w], soil.node);
+    for (int pass = 0; pass < mpm::kContactPasses; ++pass) {
+      for (std::int32_t r = range[0]; r < range[1]; ++r) mpm::touch_row(rows.row[r], soil.node);
+    }
+  }
+};
+
+/// Impulses that the stress of a cell gives to components that are held, as a part of the sum over cells.
+template <class T, int Dim>
+struct HeldOfCell {
+  const SoilView<T>* soil;
+  long cell;
+
+  friend constexpr HeldSums& operator+=(HeldSums& sums, const HeldOfCell& one) {
+    const mpm_kernel::SoilGroup<T, 1>& group = one.soil->cell[one.cell];
+    if (group.place[0] < 0 || group.mask < 0) return sums;
+    double r[6];
+    for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][0]);
+    const auto s = mpm_kernel::tension_of(r);
+    for (int e = 0; e < kMembers<Dim>; ++e) {
+      const double b[3] = {static_cast<double>(group.gradient[0][e][0]), static_cast<double>(group.gradient[1][e][0]),
+                           static_cast<double>(group.gradient[2][e][0])};
+      const double force[3] = {s.xx * b[0] + s.xy * b[1] + s.xz * b[2], s.xy * b[0] + s.yy * b[1] + s.yz * b[2],
+                               s.xz * b[0] + s.yz * b[1] + s.zz * b[2]};
+      for (int a = 0; a < 3; ++a) {
+        if (one.soil->mask[one.cell].free[a][e][0] != T(0)) continue;
+        const std::uint8_t holder = one.soil->holder[3L * group.node[e][0] + a];
+        sums.of[holder][a] -= static_cast<double>(group.push[0]) * force[a];
+      }
+    }
+    return sums;
+  }
+};
+
+template <class T, int Dim>
+struct SoilMotionKernel {
+  SoilView<T> soil;
+
+  void operator()(long cell) const {
+    const mpm_kernel::SoilGroup<T, 1>& group = soil.cell[cell];
+    if (group.place[0] < 0) return;
+    mpm_kernel::SoilFlow<T, 1> flow;
+    mpm::flow<T, kKindOf<Dim>>(group, soil.node, flow);
+    mpm::motion_of(group, flow, 0, soil.motion[cell]);
+  }
+};
+
+template <class T, class Geometry>
+struct SoilTakeKernel {
+  static constexpr int kDim = Geometry::kDim;
+  StepView<T> step;
+  SoilView<T> soil;
+  mpm_kernel::SoilParticles<T> particles;
+  SetView set;
+  double dt;
+  int number;
+
+  void operator()(long i) const {
+    const long p = set.first + i, node = step.particles.node[p], block = node / nodes_of_block(kDim);
+    const SoilBox<T, kDim> box(step, set.half, p);
+    const Local<kDim> local = local_of<kDim>(node);
+    T sums[mpm::kMotionNumbers] = {};
+    for (int piece = 0; piece < kMembers<kDim>; ++piece) {
+      Local<kDim> there = local;
+      T part = T(1);
+      for (int k = 0; k < kDim; ++k) {
+        const int upper = piece >> (kDim - 1 - k) & 1;
+        there.at[k] += box.along[k].cell + upper;
+        part *= box.along[k].part[upper];
+      }
+      if (!(part > T(0))) continue;
+      const long lower = number_of<kDim>(step.nodes, block, there);
+      if (lower < 0) continue;
+      const Local<kDim> at = local_of<kDim>(lower);
+      const long cell =
+          cell_number<kDim>(step.nodes, number, lower / nodes_of_block(kDim), place_of_cell<kDim>(at.at));
+      mpm::add_motion(sums, part, soil.motion[cell]);
+    }
+    mpm::Wide<T> of[mpm::kMotionNumbers];
+    for (int n = 0; n < mpm::kMotionNumbers; ++n) of[n] = mpm::Wide<T>::load(sums + n);
+    mpm::take_motion<Geometry>(particles, static_cast<int>(p), 1, of, dt);
+  }
+};
+
+/// Sums of a node, and what it is given: `Stores`.
+template <class T, int Dim>
+struct SolvedNode {
+  const SoilView<T>* soil;
+  const StepView<T>* step;
+  long n;
+
+  /// visit(grid axis, world axis, holder, solved) for each component, if the node carries material.
+  template <class Visit>
+  constexpr void each(Visit&& visit) const {
+    const NodeView& nodes = step->nodes;
+    const double mass = nodes.mass[n];
+    if (!(mass > step->grid.least_mass)) return;
+    for (int k = 0; k < Dim; ++k) {
+      const int axis = world_axis<Dim>(k);
+      const std::uint8_t holder = soil->holder[3 * n + axis];
+      const bool held = holder != kFreeComponent;
+      const long at = k * nodes.nodes + n;
+      const double found = held ? 0.0 : static_cast<double>(soil->node[n].v[axis]);
+      visit(k, axis, holder,
+            mpm_kernel::end_of_solve(mass, nodes.momentum[at] / mass, nodes.velocity[at], found, held, soil->lightest,
+                                     soil->loads, step->settings.dt));
+    }
+  }
+  friend constexpr DeedSums& operator+=(DeedSums& sums, const SolvedNode& one) {
+    one.each([&](int, int axis, std::uint8_t holder, const mpm_kernel::SolvedComponent& solved) {
+      if (holder != kFreeComponent) {
+        sums.held.of[holder][axis] += solved.held;
+      } else {
+        sums.light[axis] += solved.light;
+      }
+      sums.taken += solved.taken;
+    });
+    return sums;
+  }
+};
+
+template <class T, int Dim>
+struct SoilStoreKernel {
+  SoilView<T> soil;
+  StepView<T> step;
+
+  void operator()(long n) const {
+    SolvedNode<T, Dim>{&soil, &step, n}.each(
+        [&](int k, int, std::uint8_t, const mpm_kernel::SolvedComponent& solved) {
+          step.nodes.velocity[k * step.nodes.nodes + n] = solved.velocity;
+          step.nodes.acceleration[k * step.nodes.nodes + n] = solved.acceleration;
+        });
+  }
+};
+
+template <class T>
+struct PackKernel {
+  const mpm_kernel::SoilNode<T>* node;
+  const std::int32_t* numbers;
+  mpm_kernel::SoilNode<T>* to;
+  void operator()(long i) const { to[i] = node[numbers[i]]; }
+};
+template <class T>
+struct UnpackKernel {
+  mpm_kernel::SoilNode<T>* node;
+  const std::int32_t* numbers;
+  const mpm_kernel::SoilNode<T>* from;
+  void operator()(long i) const { node[numbers[i]] = from[i]; }
+};
+
+template <class T>
+struct ImpulsesKernel {
+  RowsView<T> rows;
+  long tools;
+  T* to;
+
+  void operator()(long i) const {
+    const T* impulse = i < tools ? rows.row[i].impulse : rows.wall[i - tools].impulse;
+    for (int a = 0; a < 3; ++a) to[3 * i + a] = impulse[a];
+  }
+};
+
+template <class T>
+struct OwnersKernel {
+  StepView<T> step;
+  int per_block;
+  std::uint8_t* to;
+
+  void operator()(long block) const {
+    std::uint8_t holds = 0;
+    for (int s = 0; s < step.set_count; ++s) {
+      for (long row = s * step.nodes.nodes + block * per_block, end = row + per_block; row < end; ++row) {
+        if (step.nodes.begin[row] < step.nodes.end[row]) holds = 1;
+      }
+    }
+    to[block] = holds;
+  }
+};
+
+}  // namespace mpm_gpu

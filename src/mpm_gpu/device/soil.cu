@@ -1,0 +1,8 @@
+// The kernels and launches of lane/soil.cpp, for a card.
+#include "mpm_gpu/device/host_headers.hpp"
+
+#pragma clang force_cuda_host_device begin
+#include "mpm_gpu/soil_kernels.hpp"
+#pragma clang force_cuda_host_device end
+
+#include "../lane/soil.cpp"

@@ -1,0 +1,189 @@
+// Implicit steps in simulations whose steps a device takes, as on the processor: soils, walls, tools, free bodies, loads,
+// periodic axes. Cost: 6 s.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+
+#include "gpu_runs.hpp"
+#include "gpu_scenes.hpp"
+#include "mpm/rigid/surface.hpp"
+
+namespace gpu_implicit_test {
+
+using namespace gpu_runs;
+using mpm::Function;
+using mpm::Precision;
+using mpm::Vec3;
+
+SimulationDefinition implicit(SimulationDefinition d) {
+  d.method.update = mpm::UpdateScheme::implicit;
+  d.method.average_stress = false;
+  return d;
+}
+
+/// A column of sand collapses in plane strain beside a wall that slips and on a floor that holds it; a little of PIC.
+SimulationDefinition column(Precision precision) { return implicit(gpu_scenes::column(precision)); }
+
+/// A block of soil with corners in its surface lands in space on a floor with friction, in a corner of the walls; APIC.
+SimulationDefinition landing_block(Precision precision) {
+  SimulationDefinition d = implicit(gpu_scenes::falling_block(precision));
+  mpm::MohrCoulombDefinition law;
+  law.elasticity = {2e6, 0.3};
+  law.friction_angle = 0.6;
+  law.dilation_angle = 0.1;
+  law.cohesion = 400.0;
+  d.materials = {{"block", 1700.0, law}};
+  d.walls[4].kind = mpm::WallKind::frictional;
+  d.walls[4].friction.coefficient = 0.4;
+  d.walls[0].kind = mpm::WallKind::frictional;
+  d.walls[0].friction.stick = true;
+  d.method.transfer = {mpm::TransferKind::apic, 0.0, 1};
+  d.bodies.front() = gpu_scenes::block(d, "block", {0.0, 2.0, 0.0}, {4.0, 5.5, 3.5}, {-0.4, 0.3, -0.8});
+  return d;
+}
+
+/// Flowing grains, whose friction follows the rate, meet clay, which yields as metal does: two soils share cells.
+SimulationDefinition two_soils(Precision precision) {
+  SimulationDefinition d = implicit(gpu_scenes::two_blocks(precision));
+  mpm::MuIDefinition grains;
+  grains.elasticity = {1e6, 0.3};
+  grains.static_friction = 0.38;
+  grains.limiting_friction = 0.64;
+  grains.reference_inertial = 0.3;
+  grains.grain_diameter = 2e-3;
+  grains.grain_density = 2500.0;
+  mpm::J2PlasticityDefinition clay;
+  clay.elasticity = {2e6, 0.4};
+  clay.yield_stress = 3e3;
+  d.materials = {{"rubber", 1600.0, grains}, {"foam", 1800.0, clay}};
+  return d;
+}
+
+mpm::RigidBodyDefinition tool(std::unique_ptr<mpm::Surface> surface, const Vec3& place, const Vec3& velocity) {
+  mpm::RigidBodyDefinition body;
+  body.name = "tool";
+  body.surface = std::move(surface);
+  body.pose.position = place;
+  for (int k = 0; k < 3; ++k) body.velocity[k] = Function(velocity[k]);
+  body.friction.coefficient = 0.4;
+  return body;
+}
+
+/// A block pushes sand along a floor with friction, and particles out of its way.
+SimulationDefinition pushed_column(Precision precision) {
+  SimulationDefinition d = column(precision);
+  d.walls[4].kind = mpm::WallKind::frictional;
+  d.walls[4].friction.coefficient = 0.5;
+  d.bodies.front() = gpu_scenes::block(d, "sand", {4.0, 0.0, 0.0}, {10.0, 0.0, 8.0}, Vec3::Zero());
+  d.rigid_bodies = {tool(mpm::make_box({0.35, 1.0, 0.5}), {0.20, 0.0, 0.26}, {1.0, 0.0, 0.05})};
+  return d;
+}
+/// A ball is pressed askew into a bed in space.
+SimulationDefinition pressed_bed(Precision precision) {
+  SimulationDefinition d = landing_block(precision);
+  d.bodies.front() = gpu_scenes::block(d, "block", {2.0, 2.0, 0.0}, {8.0, 8.0, 4.0}, Vec3::Zero());
+  d.rigid_bodies = {tool(mpm::make_sphere(0.2), {0.51, 0.48, 0.605}, {0.3, 0.1, -0.8})};
+  return d;
+}
+/// A heavy ball falls on the bed, free to turn.
+SimulationDefinition struck_bed(Precision precision) {
+  SimulationDefinition d = pressed_bed(precision);
+  mpm::RigidBodyDefinition& ball = d.rigid_bodies.front();
+  ball.velocity = {};
+  ball.free = mpm::FreeDefinition{};
+  ball.free->mass = 40.0;
+  ball.free->inertia = 0.6 * mpm::Mat3::Identity();
+  ball.free->velocity.linear = {0.5, 0.2, -1.5};
+  return d;
+}
+
+/// The column under a wind that grows, which does work on the velocities of a step's end.
+SimulationDefinition loaded_column(Precision precision) {
+  SimulationDefinition d = column(precision);
+  mpm::BodyForceDefinition wind;
+  wind.acceleration[0] = Function::parse("4 + 100 * t");
+  d.body_forces = {wind};
+  return d;
+}
+/// A layer flows around a periodic axis.
+SimulationDefinition flowing_layer(Precision precision) {
+  SimulationDefinition d = column(precision);
+  d.grid.max.x() = 8.0 * d.grid.cell.x();
+  d.walls[0].kind = d.walls[1].kind = mpm::WallKind::periodic;
+  d.gravity = {6.0, 0.0, -9.0};
+  d.bodies.front() = gpu_scenes::block(d, "sand", {0.0, 0.0, 0.0}, {8.0, 0.0, 5.0}, {2.0, 0.0, 0.0});
+  return d;
+}
+
+double of_module(const Simulation& simulation, const std::string& name) {
+  for (const mpm::NamedNumber& one : simulation.numbers()) {
+    if (one.name == name) return one.value;
+  }
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
+void expect_solved_alike(SimulationDefinition (*of)(Precision), const std::vector<const char*>& fields,
+                         double bound = kRoundOff) {
+  Simulation here(scene(of), options(false)), there(scene(of), options(true));
+  for (int i = 0; i < kPeriods; ++i) {
+    here.advance();
+    there.advance();
+    EXPECT_EQ(of_module(here, "sweeps"), of_module(there, "sweeps"));
+  }
+  expect_sums_alike(here, there, bound);
+  for (const char* name : fields) EXPECT_LT(difference(here, there, name), bound) << name;
+  if (here.definition().rigid_bodies.empty()) return;
+  const mpm::ContactReport a = here.take_contact(0), b = there.take_contact(0);
+  EXPECT_GT(a.impulse.norm(), 0.0);
+  EXPECT_LT((a.impulse - b.impulse).norm(), bound * a.impulse.norm());
+  EXPECT_LT((a.mean.force - b.mean.force).norm(), bound * a.mean.force.norm());
+  EXPECT_EQ(a.nodes, b.nodes);
+  const mpm::BodyState at = here.bodies().front(), to = there.bodies().front();
+  EXPECT_LT((at.pose.position - to.pose.position).norm(), bound);
+  EXPECT_LT((at.twist.linear - to.twist.linear).norm(), bound);
+}
+
+const std::vector<const char*> kFields = {"x", "z", "vx", "vz", "j", "szz", "plastic_strain"};
+
+TEST(GpuImplicit, Column) { expect_solved_alike(column, kFields); }
+TEST(GpuImplicit, BlockInACorner) { expect_solved_alike(landing_block, kFields); }
+TEST(GpuImplicit, TwoSoils) { expect_solved_alike(two_soils, kFields); }
+TEST(GpuImplicit, PushedColumn) { expect_solved_alike(pushed_column, kFields); }
+TEST(GpuImplicit, PressedBed) { expect_solved_alike(pressed_bed, kFields); }
+TEST(GpuImplicit, FreeBallOnBed) { expect_solved_alike(struck_bed, kFields); }
+TEST(GpuImplicit, ColumnUnderLoad) { expect_solved_alike(loaded_column, kFields); }
+TEST(GpuImplicit, LayerGoesAround) { expect_solved_alike(flowing_layer, {"z", "vx", "vz", "j", "szz"}); }
+
+// All bits are the same whatever the order in which indices are visited, and on several threads.
+TEST(GpuImplicit, SameBitsInAnyOrder) {
+  std::vector<std::uint64_t> hashes;
+  for (const mpm_gpu::Executor& executor :
+       {mpm_gpu::Executor(mpm_gpu::Visits::forwards, 1), mpm_gpu::Executor(mpm_gpu::Visits::backwards, 1),
+        mpm_gpu::Executor(mpm_gpu::Visits::shuffled, 3)}) {
+    SimulationOptions chosen = options(false);
+    chosen.device = mpm_gpu::device_by(executor);
+    Simulation run(scene(struck_bed), chosen);
+    advance(run, 4);
+    hashes.push_back(run.memory_hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(GpuImplicit, ResumesToTheBit) {
+  const mpm::test::Folder folder;
+  const std::string file = folder.file("implicit.h5");
+  for (const auto of : {pushed_column, struck_bed}) {
+    Simulation whole(scene(of), options(true)), first(scene(of), options(true)), second(scene(of), options(true));
+    advance(whole, kPeriods);
+    advance(first, kPeriods / 2);
+    mpm::save_checkpoint(file, first, {});
+    mpm::load_checkpoint(file, second, "");
+    advance(second, kPeriods / 2);
+    EXPECT_EQ(whole.memory_hash(), second.memory_hash());
+  }
+}
+
+}  // namespace gpu_implicit_test

@@ -4,6 +4,7 @@
 // by node, in their sorted order.
 #pragma once
 
+#include "mpm/kernel/soil_cell.hpp"
 #include "mpm/kernel/soil_contact.hpp"
 #include "mpm/kernel/soil_exchange.hpp"
 #include "mpm/kernel/soil_nodes.hpp"
@@ -37,7 +38,7 @@ struct SoilNumbersKernel {
   void operator()(long i) const {
     const int p = static_cast<int>(first + i);
     mpm::Wide<T> numbers[kSoilNumbers];
-    mpm::soil_numbers<Geometry>(particles, p, 1, numbers);
+    mpm::soil::numbers_of<Geometry>(particles, p, 1, numbers);
     for (int n = 0; n < kSoilNumbers; ++n) numbers[n].store(soil.number[n] + p);
   }
 };
@@ -57,8 +58,8 @@ struct SoilLoadKernel {
         const int axis = world_axis<Dim>(k);
         if (soil.holder[3 * n + axis] != kFreeComponent) continue;
         const long at = k * from.nodes + n;
-        node.v[axis] = static_cast<T>(mpm_kernel::start_of_solve(mass, from.momentum[at] / mass, from.velocity[at],
-                                                                 soil.lightest, soil.loads));
+        node.v[axis] = static_cast<T>(
+            mpm_kernel::start_of_solve(mass, from.momentum[at] / mass, from.velocity[at], soil.lightest, soil.loads));
       }
     }
     soil.node[n] = node;
@@ -68,12 +69,12 @@ struct SoilLoadKernel {
 /// The cuts of a particle's box, whose nearest node is number 0 along each axis.
 template <class T, int Dim>
 struct SoilBox {
-  mpm::SoilCut<T> along[Dim];
+  mpm::soil::Cut<T> along[Dim];
 
   SoilBox(const StepView<T>& step, const double* half, long p) {
     for (int k = 0; k < Dim; ++k) {
       const double cells = in_cells(step.grid, k, step.particles.x[k][p]), at = cells - nearest_node(cells);
-      along[k].find(at, at - half[k], at + half[k], 1.0 / (2.0 * half[k]));
+      along[k] = mpm::soil::Cut<T>(at, at - half[k], at + half[k], 1.0 / (2.0 * half[k]));
     }
   }
 };
@@ -106,13 +107,13 @@ struct SoilCellKernel {
     group.place[0] = -1;
     if (!(sums.volume > T(0))) return;
     group.place[0] = static_cast<int>(cell);
+    mpm_kernel::begin_group(group, constants);
     find_nodes(corner, cell, group);
     mpm_kernel::SoilPlaces<T, 1> places{};
     for (int k = 0; k < kDim; ++k) places.inverse_cell[world_axis<kDim>(k)] = static_cast<T>(step.grid.inverse_cell[k]);
-    mpm::begin_soil_group(group, constants);
-    mpm::make_soil_cell(sums, constants, dt, 0, group, places);
-    mpm::prepare<T, kKindOf<kDim>>(group, places, soil.node, group.mask >= 0 ? soil.mask + cell : nullptr);
-    mpm::project<T>(group);
+    mpm_kernel::make_cell(sums, constants, dt, false, 0, group, places);
+    mpm::soil::prepare<T, kKindOf<kDim>>(group, places, soil.node, group.mask >= 0 ? soil.mask + cell : nullptr);
+    mpm::soil::project<T>(group);
   }
 
  private:
@@ -142,11 +143,10 @@ struct SoilCellKernel {
     }
     T numbers[kSoilNumbers];
     for (int n = 0; n < kSoilNumbers; ++n) numbers[n] = soil.number[n][p];
-    mpm::add_piece<Geometry>(sums, numbers, part, middle);
+    mpm::soil::add_piece<Geometry>(sums, numbers, part, middle);
   }
   /// The nodes of the cell, and which of their components are held.
   void find_nodes(const long* corner, long cell, mpm_kernel::SoilGroup<T, 1>& group) const {
-    group.mask = -1;
     for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
       const long node = e < kMembers<kDim> && corner[e] >= 0 ? corner[e] : step.nodes.nodes;
       group.node[e][0] = static_cast<int>(node);
@@ -176,7 +176,12 @@ struct SoilPushKernel {
     const int place = turn % kMembers<Dim> * kMembers<Dim> + member;
     const mpm_kernel::SoilGroup<T, 1>& group =
         soil.cell[cell_number<Dim>(nodes, turn / kMembers<Dim>, blocks[team], place)];
-    if (group.place[0] >= 0) mpm::push_group<T, kKindOf<Dim>>(group, soil.mask, soil.node);
+    if (group.place[0] < 0) return;
+    mpm::soil::GroupNodes<T, kKindOf<Dim>> corners(group, soil.node);
+    T stress[6];
+    for (int s = 0; s < 6; ++s) stress[s] = group.stress[s][0];
+    mpm::soil::spread(group, soil.mask, stress, corners);
+    for (int e = 0; e < corners.kCount; ++e) mpm::soil::store(soil.node, group.node[e], corners.of[e]);
   }
 };
 
@@ -197,10 +202,10 @@ struct SoilSweepKernel {
     const int place = at % kMembers<Dim> * kMembers<Dim> + member;
     mpm_kernel::SoilGroup<T, 1>& group = soil.cell[cell_number<Dim>(nodes, at / kMembers<Dim>, block, place)];
     if (group.place[0] < 0) return;
-    mpm::Register<T> size{}, moved{};
-    mpm::relax<T, kKindOf<Dim>>(group, soil.mask, soil.node, size, moved);
-    change.size += static_cast<double>(mpm::lane_of(size, 0));
-    change.change += static_cast<double>(mpm::lane_of(moved, 0));
+    T size = T(0), moved = T(0);
+    mpm::soil::relax<T, kKindOf<Dim>>(group, soil.mask, soil.node, size, moved);
+    change.size += static_cast<double>(size);
+    change.change += static_cast<double>(moved);
   }
 };
 
@@ -266,9 +271,9 @@ struct SoilMeetKernel {
 
   void operator()(long i) const {
     const std::int32_t* range = rows.range + 4 * i;
-    for (std::int32_t w = range[2]; w < range[3]; ++w) mpm::touch_wall(rows.wall[w], soil.node);
-    for (int pass = 0; pass < mpm::kContactPasses; ++pass) {
-      for (std::int32_t r = range[0]; r < range[1]; ++r) mpm::touch_row(rows.row[r], soil.node);
+    for (std::int32_t w = range[2]; w < range[3]; ++w) mpm::soil::touch_wall(rows.wall[w], soil.node);
+    for (int pass = 0; pass < mpm::soil::kContactPasses; ++pass) {
+      for (std::int32_t r = range[0]; r < range[1]; ++r) mpm::soil::touch_row(rows.row[r], soil.node);
     }
   }
 };
@@ -284,7 +289,7 @@ struct HeldOfCell {
     if (group.place[0] < 0 || group.mask < 0) return sums;
     double r[6];
     for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][0]);
-    const auto s = mpm_kernel::tension_of(r);
+    const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
     for (int e = 0; e < kMembers<Dim>; ++e) {
       const double b[3] = {static_cast<double>(group.gradient[0][e][0]), static_cast<double>(group.gradient[1][e][0]),
                            static_cast<double>(group.gradient[2][e][0])};
@@ -308,8 +313,8 @@ struct SoilMotionKernel {
     const mpm_kernel::SoilGroup<T, 1>& group = soil.cell[cell];
     if (group.place[0] < 0) return;
     mpm_kernel::SoilFlow<T, 1> flow;
-    mpm::flow<T, kKindOf<Dim>>(group, soil.node, flow);
-    mpm::motion_of(group, flow, 0, soil.motion[cell]);
+    mpm::soil::flow<T, kKindOf<Dim>>(group, soil.node, flow);
+    mpm_kernel::find_motion(group, flow, 0, soil.motion[cell]);
   }
 };
 
@@ -327,7 +332,7 @@ struct SoilTakeKernel {
     const long p = set.first + i, node = step.particles.node[p], block = node / nodes_of_block(kDim);
     const SoilBox<T, kDim> box(step, set.half, p);
     const Local<kDim> local = local_of<kDim>(node);
-    T sums[mpm::kMotionNumbers] = {};
+    T sums[mpm::soil::kMotionNumbers] = {};
     for (int piece = 0; piece < kMembers<kDim>; ++piece) {
       Local<kDim> there = local;
       T part = T(1);
@@ -340,13 +345,12 @@ struct SoilTakeKernel {
       const long lower = number_of<kDim>(step.nodes, block, there);
       if (lower < 0) continue;
       const Local<kDim> at = local_of<kDim>(lower);
-      const long cell =
-          cell_number<kDim>(step.nodes, number, lower / nodes_of_block(kDim), place_of_cell<kDim>(at.at));
-      mpm::add_motion(sums, part, soil.motion[cell]);
+      const long cell = cell_number<kDim>(step.nodes, number, lower / nodes_of_block(kDim), place_of_cell<kDim>(at.at));
+      mpm::soil::add_motion(sums, part, soil.motion[cell]);
     }
-    mpm::Wide<T> of[mpm::kMotionNumbers];
-    for (int n = 0; n < mpm::kMotionNumbers; ++n) of[n] = mpm::Wide<T>::load(sums + n);
-    mpm::take_motion<Geometry>(particles, static_cast<int>(p), 1, of, dt);
+    mpm::Wide<T> of[mpm::soil::kMotionNumbers];
+    for (int n = 0; n < mpm::soil::kMotionNumbers; ++n) of[n] = mpm::Wide<T>::load(sums + n);
+    mpm::soil::take_motion<Geometry>(particles, static_cast<int>(p), 1, of, dt);
   }
 };
 
@@ -393,11 +397,10 @@ struct SoilStoreKernel {
   StepView<T> step;
 
   void operator()(long n) const {
-    SolvedNode<T, Dim>{&soil, &step, n}.each(
-        [&](int k, int, std::uint8_t, const mpm_kernel::SolvedComponent& solved) {
-          step.nodes.velocity[k * step.nodes.nodes + n] = solved.velocity;
-          step.nodes.acceleration[k * step.nodes.nodes + n] = solved.acceleration;
-        });
+    SolvedNode<T, Dim>{&soil, &step, n}.each([&](int k, int, std::uint8_t, const mpm_kernel::SolvedComponent& solved) {
+      step.nodes.velocity[k * step.nodes.nodes + n] = solved.velocity;
+      step.nodes.acceleration[k * step.nodes.nodes + n] = solved.acceleration;
+    });
   }
 };
 

@@ -20,7 +20,7 @@ ImplicitSoil<T>::ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mp
       passes_(soil_passes(layout_.dim(), T())),
       copies_(layout_.dim()) {
   const mpm::SoilBodies& bodies = solve.bodies();
-  for (const mpm::ImplicitSoil& soil : bodies.soils) constants_.push_back(mpm::constants_of(soil));
+  for (const mpm::ImplicitSoil& soil : bodies.soils) constants_.push_back(soil.constants());
   sets_of_.assign(bodies.soils.size(), 0);
   double squared = 0.0;
   for (int k = 0; k < layout_.dim(); ++k) {

@@ -1,5 +1,5 @@
-// Implicit steps in simulations whose steps a device takes, as on the processor: soils, walls, tools, free bodies, loads,
-// periodic axes. Cost: 6 s.
+// Implicit steps in simulations whose steps a device takes, as on the processor: soils, walls, tools, free bodies,
+// loads, periodic axes. Cost: 6 s.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -18,7 +18,7 @@ using mpm::Vec3;
 
 SimulationDefinition implicit(SimulationDefinition d) {
   d.method.update = mpm::UpdateScheme::implicit;
-  d.method.average_stress = false;
+  d.method.average_stress.reset();
   return d;
 }
 
@@ -145,14 +145,17 @@ void expect_solved_alike(SimulationDefinition (*of)(Precision), const std::vecto
   EXPECT_LT((at.twist.linear - to.twist.linear).norm(), bound);
 }
 
-const std::vector<const char*> kFields = {"x", "z", "vx", "vz", "j", "szz", "plastic_strain"};
+const std::vector<const char*> kMotion = {"x", "z", "vx", "vz", "j", "szz", "plastic_energy"};
+// Whether the shear of soil that has parted counts as plastic strain is decided by the last bit of a stress that is none
+// (kernel/soil_relax.hpp), on either processor: with cohesion it is compared where none parts.
+const std::vector<const char*> kFields = {"x", "z", "vx", "vz", "j", "szz", "plastic_energy", "ep"};
 
 TEST(GpuImplicit, Column) { expect_solved_alike(column, kFields); }
-TEST(GpuImplicit, BlockInACorner) { expect_solved_alike(landing_block, kFields); }
+TEST(GpuImplicit, BlockInACorner) { expect_solved_alike(landing_block, kMotion); }
 TEST(GpuImplicit, TwoSoils) { expect_solved_alike(two_soils, kFields); }
 TEST(GpuImplicit, PushedColumn) { expect_solved_alike(pushed_column, kFields); }
-TEST(GpuImplicit, PressedBed) { expect_solved_alike(pressed_bed, kFields); }
-TEST(GpuImplicit, FreeBallOnBed) { expect_solved_alike(struck_bed, kFields); }
+TEST(GpuImplicit, PressedBed) { expect_solved_alike(pressed_bed, kMotion); }
+TEST(GpuImplicit, FreeBallOnBed) { expect_solved_alike(struck_bed, kMotion); }
 TEST(GpuImplicit, ColumnUnderLoad) { expect_solved_alike(loaded_column, kFields); }
 TEST(GpuImplicit, LayerGoesAround) { expect_solved_alike(flowing_layer, {"z", "vx", "vz", "j", "szz"}); }
 
@@ -166,7 +169,7 @@ TEST(GpuImplicit, SameBitsInAnyOrder) {
     chosen.device = mpm_gpu::device_by(executor);
     Simulation run(scene(struck_bed), chosen);
     advance(run, 4);
-    hashes.push_back(run.memory_hash());
+    hashes.push_back(run.state_hash());
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
@@ -182,7 +185,7 @@ TEST(GpuImplicit, ResumesToTheBit) {
     mpm::save_checkpoint(file, first, {});
     mpm::load_checkpoint(file, second, "");
     advance(second, kPeriods / 2);
-    EXPECT_EQ(whole.memory_hash(), second.memory_hash());
+    EXPECT_EQ(whole.state_hash(), second.state_hash());
   }
 }
 

@@ -96,7 +96,8 @@ class SoilCells {
   int& slot(int soil, int block) { return slots_[static_cast<std::size_t>(soil) * blocks_ + block]; }
 
   SoilBodies bodies_;
-  std::vector<mpm_kernel::SoilParticles<T>> views_;  ///< in this step
+  std::vector<mpm_kernel::SoilConstants> constants_;  ///< constants of each soil
+  std::vector<mpm_kernel::SoilParticles<T>> views_;   ///< in this step
   const SoilGrid& grid_;
   int threads_;
   int blocks_ = 0;

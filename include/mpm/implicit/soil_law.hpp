@@ -10,13 +10,12 @@
 // Metal yields on its Cauchy stress, where the explicit law has that times J.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mpm/kernel/soil_cells.hpp"
 #include "mpm/material/definition.hpp"
-#include "mpm/material/j2_plasticity.hpp"
 #include "mpm/material/softening.hpp"
 
 namespace mpm {
@@ -28,11 +27,9 @@ struct ImplicitSoil {
   /// @throws MaterialError for a material that refused_implicit() names
   explicit ImplicitSoil(const MaterialDefinition& material);
 
-  /// c cos(phi) [Pa], of a round cone xi c; `left`: mean over a cell of 1 - per_strain times plastic strain, which is
-  /// the part of the fall that is left, and of metal, whose per_strain is -1, 1 + plastic strain.
-  double cohesion_at(double left) const {
-    return metal_ ? metal_->yield_stress(left - 1.0) / std::sqrt(3.0) : cohesion_.at(left);
-  }
+  /// For the cells, whose cohesion follows the fall of strength that is left, or the plastic strain of metal
+  /// (kernel/soil_cell.hpp).
+  mpm_kernel::SoilConstants constants() const;
 
   /// Largest Mises stress of metal that is not hardened in a straight line [Pa]; 0 of soil.
   double yield_stress = 0.0;
@@ -53,7 +50,7 @@ struct ImplicitSoil {
 
  private:
   Fall cohesion_;
-  std::optional<J2Plasticity> metal_;
+  std::optional<J2PlasticityDefinition> metal_;
 };
 
 /// What the soils of a scene have at the least and at the most.

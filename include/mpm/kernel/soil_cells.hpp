@@ -42,53 +42,54 @@ struct alignas(4 * sizeof(T)) SoilNode {
   T inverse_mass;  ///< [1/kg]; 0 where no material is
 };
 
-/// Cells that share no node, one a lane. A lane without a cell has `push` 0 and nodes without mass.
-template <class T>
+/// Cells that share no node, one a lane; a device has groups of one. A lane without a cell has `push` 0 and nodes
+/// without mass.
+template <class T, int Cells = kGroupCells>
 struct alignas(64) SoilGroup {
-  T gradient[3][kCellNodes][kGroupCells];  ///< mean of the nodes' over the soil in the cell, or the hoop function [1/m]
-  T stress[6][kGroupCells];                ///< r [Pa]
-  T before[6][kGroupCells];                ///< r as SweepTable::extrapolate() found it last [Pa]
-  T shift[6][kGroupCells];  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
-  T closing[kGroupCells];   ///< part of shift[0] by which openings close, or volume is given back [1/s]
-  T weight_n[kGroupCells], weight_t[kGroupCells];          ///< change of the cell's e by its own r, at least [1/(Pa s)]
-  T compliance_n[kGroupCells], compliance_t[kGroupCells];  ///< elastic, over the step [1/(Pa s)]
-  T push[kGroupCells];                                     ///< dt V [m^3 s]
-  T sine[kGroupCells], cohesion[kGroupCells];              ///< constants of the surface; cohesion [Pa]
-  T dilation[kGroupCells], dilates[kGroupCells];
-  T least[kGroupCells];  ///< r_N at which the soil parts, if not at no strength [Pa]
-  T lode[kGroupCells];   ///< 1 where k follows the Lode angle, 0 for a round cone
+  T gradient[3][kCellNodes][Cells];  ///< mean of the nodes' over the soil in the cell, or the hoop function [1/m]
+  T stress[6][Cells];                ///< r [Pa]
+  T before[6][Cells];                ///< r as SweepTable::extrapolate() found it last [Pa]
+  T shift[6][Cells];  ///< added to e: what the elastic part takes from the step's start, and closing [1/s]
+  T closing[Cells];   ///< part of shift[0] by which openings close, or volume is given back [1/s]
+  T weight_n[Cells], weight_t[Cells];          ///< change of the cell's e by its own r, at least [1/(Pa s)]
+  T compliance_n[Cells], compliance_t[Cells];  ///< elastic, over the step [1/(Pa s)]
+  T push[Cells];                               ///< dt V [m^3 s]
+  T sine[Cells], cohesion[Cells];              ///< constants of the surface; cohesion [Pa]
+  T dilation[Cells], dilates[Cells];
+  T least[Cells];  ///< r_N at which the soil parts, if not at no strength [Pa]
+  T lode[Cells];   ///< 1 where k follows the Lode angle, 0 for a round cone
   /// Constants of |r_T| <= strength + slope r_N and of the flow, at the Lode angle that the last sweep has found.
-  T strength[kGroupCells], slope[kGroupCells], theta[kGroupCells];
-  int node[kCellNodes][kGroupCells];
-  int place[kGroupCells];  ///< place of the cell among all places of cells; -1 without one
-  T friction_rise;         ///< mu_2 - mu_s of mu(I); 0: strength does not depend on the rate
-  T reference_rate;        ///< reference rate of mu(I), over the root of pressure [1/(s sqrt(Pa))]
-  int mask;                ///< number of its SoilMask; -1: no node of it is held
+  T strength[Cells], slope[Cells], theta[Cells];
+  int node[kCellNodes][Cells];
+  int place[Cells];  ///< place of the cell among all places of cells; -1 without one
+  T friction_rise;   ///< mu_2 - mu_s of mu(I); 0: strength does not depend on the rate
+  T reference_rate;  ///< reference rate of mu(I), over the root of pressure [1/(s sqrt(Pa))]
+  int mask;          ///< number of its SoilMask; -1: no node of it is held
 };
 
 /// Places of the soil of a group's cells: means over it of x, y, z, xy, xz and yz, in cells from the cell's lower
 /// corner, and the number of edges in a metre along each axis; along y in a plane 0.
-template <class T>
+template <class T, int Cells = kGroupCells>
 struct SoilPlaces {
-  T mean[6][kGroupCells];
+  T mean[6][Cells];
   T inverse_cell[3];
-  T over_radius[4][kGroupCells];  ///< about an axis, means of 1, x, z and xz over the radius [1/m]
+  T over_radius[4][Cells];  ///< about an axis, means of 1, x, z and xz over the radius [1/m]
 };
 
 /// Marks of where nodes of a group are held, by walls, conditions or what is asleep: 0 for such components of velocity,
 /// else 1.
-template <class T>
+template <class T, int Cells = kGroupCells>
 struct SoilMask {
-  T free[3][kCellNodes][kGroupCells];
+  T free[3][kCellNodes][Cells];
 };
 
 /// Effect of the velocities that were found on the cells of a group.
-template <class T>
+template <class T, int Cells = kGroupCells>
 struct SoilFlow {
-  T rate[6][kGroupCells];      ///< e [1/s]
-  T shear[kGroupCells];        ///< |e_T| of its part that is not elastic [1/s]
-  T opening[kGroupCells];      ///< e_N - theta |e_T| of that part [1/s]
-  T gradient[9][kGroupCells];  ///< gradient of velocity, row by row [1/s]
+  T rate[6][Cells];      ///< e [1/s]
+  T shear[Cells];        ///< |e_T| of its part that is not elastic [1/s]
+  T opening[Cells];      ///< e_N - theta |e_T| of that part [1/s]
+  T gradient[9][Cells];  ///< gradient of velocity, row by row [1/s]
 };
 
 /// A point of a rigid body at which contact acts on the nodes around it.
@@ -142,6 +143,18 @@ struct alignas(64) SoilSums {
   T opening;    ///< logarithmic volume by which soil has opened, or that the pressure of metal does not account for
   T left;       ///< 1 - per_strain times plastic strain, not below 0: of soil, part of its fall of strength
   T dilates;    ///< part of its dilation that soil has
+};
+
+/// Constants of a soil that its cells have (implicit/soil_law.hpp).
+struct SoilConstants {
+  double bulk, shear;                  ///< [Pa]
+  double sine_end, sine_fall;          ///< at the end of the fall of strength, and by how much it falls
+  double cohesion_end, cohesion_fall;  ///< [Pa]
+  double yield, hardening, saturation, saturation_rate;  ///< of metal, as j2_plasticity has them [Pa]
+  double dilation;
+  double least;                          ///< r_N at which it parts [Pa]
+  double friction_rise, reference_rate;  ///< as in SoilGroup
+  bool follows_lode, opens, metal;       ///< opens: it remembers openings
 };
 
 /// Values that particles take from a cell.

@@ -7,6 +7,7 @@ __attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x);
 namespace std {
 __attribute__((device)) inline double sqrt(double x) { return __builtin_sqrt(x); }
 // Functions of the energy of laws, which law_functions.hpp defines.
+__attribute__((device)) double exp(double x);
 __attribute__((device)) double log(double x);
 __attribute__((device)) double pow(double x, double y);
 __attribute__((device)) double cbrt(double x);

@@ -10,6 +10,7 @@ __attribute__((device)) inline double log(double x) { return mpm::log(mpm::Wide<
 __attribute__((device)) inline double pow(double x, double y) {
   return mpm::pow(mpm::Wide<double>(x), mpm::Wide<double>(y)).v;
 }
+__attribute__((device)) inline double exp(double x) { return mpm::exp(mpm::Wide<double>(x)).v; }
 __attribute__((device)) inline double cbrt(double x) {
   const double inverse = mpm::inverse_cbrt(mpm::Wide<double>(x)).v;
   return x * inverse * inverse;

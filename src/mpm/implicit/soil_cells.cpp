@@ -5,20 +5,10 @@
 #include <utility>
 
 #include "mpm/grid/each_share.hpp"
+#include "mpm/kernel/soil_cell.hpp"
 
 namespace mpm {
 namespace {
-
-using mpm_kernel::kOverRoot2;
-using mpm_kernel::kOverRoot3;
-using mpm_kernel::kOverRoot6;
-constexpr double kGivenBack = 0.2;  ///< part of it that soil which is too dense gives back in a step
-
-/// The stress, tension positive, that is mapped to r.
-Symmetric3<double> tensor_of(const double* r) {
-  const double p = kOverRoot3 * r[0], q = kOverRoot6 * r[2], d = kOverRoot2 * r[1];
-  return {-(p + d - q), -(p - d - q), -(p + 2.0 * q), -kOverRoot2 * r[3], -kOverRoot2 * r[4], -kOverRoot2 * r[5]};
-}
 
 /// The cells of a block, those whose numbers along each axis are odd or even alike after each other.
 struct CellOrder {
@@ -56,14 +46,6 @@ int count_groups(const mpm_kernel::SoilSums<T>* sums, int dim) {
   return groups;
 }
 
-/// Fills what all cells of a group have alike, before the first.
-template <class T>
-void begin_group(mpm_kernel::SoilGroup<T>& group, const ImplicitSoil& soil) {
-  group.mask = -1;
-  group.friction_rise = static_cast<T>(soil.friction_rise);
-  group.reference_rate = static_cast<T>(soil.reference_rate);
-}
-
 /// A lane without a cell: that of the first one, which moves nothing.
 template <class T>
 void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T>& places, int lane, int no_node) {
@@ -83,7 +65,9 @@ void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T
 
 template <class T>
 SoilCells<T>::SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads)
-    : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {}
+    : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {
+  for (const ImplicitSoil& soil : bodies_.soils) constants_.push_back(soil.constants());
+}
 
 // A particle's box lies in the blocks around its owner.
 template <class T>
@@ -221,7 +205,7 @@ void SoilCells<T>::make_groups(const mpm_kernel::SweepTable<T>& table, const std
       for (int i = order.begin[c]; i < order.begin[c + 1]; ++i) {
         const int n = order.numbers[i];
         if (!(sums_[at + n].volume > 0.0)) continue;
-        if (lanes == 0) begin_group(groups_[next], bodies_.soils[soil]);
+        if (lanes == 0) mpm_kernel::begin_group(groups_[next], constants_[soil]);
         std::array<int, 3> local{};
         for (int k = dim - 1, rest = n; k >= 0; --k, rest /= kBlockEdge) local[k] = rest % kBlockEdge;
         make_cell(sums_[at + n], soil, block, local, dt, next, lanes, places);
@@ -241,12 +225,6 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
                              double dt, int number, int lane, mpm_kernel::SoilPlaces<T>& places) {
   Group& group = groups_[number];
   const int corners = 1 << grid_.grid().layout.dim();
-  const double per_volume = 1.0 / sums.volume;
-  for (int i = 0; i < 6; ++i) places.mean[i][lane] = static_cast<T>(per_volume * sums.place[i]);
-  if (grid_.rings()) {
-    const T over_radius[4] = {sums.place[1], sums.place[3], sums.place[5], sums.stress[3]};
-    for (int i = 0; i < 4; ++i) places.over_radius[i][lane] = static_cast<T>(per_volume * over_radius[i]);
-  }
   for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
     const int node = e < corners ? grid_.corner(block, local, e) : grid_.no_node(block);
     group.node[e][lane] = node;
@@ -258,27 +236,7 @@ void SoilCells<T>::make_cell(const Sums& sums, int number_of_soil, int block, co
       if (grid_.holder(node, k) != SoilGrid::kFree) mask.free[k][e][lane] = T(0);
     }
   }
-  const ImplicitSoil& soil = bodies_.soils[number_of_soil];
-  const double push = dt * sums.volume, opening = per_volume * sums.opening, left = per_volume * sums.left;
-  const double compliance_n = 1.0 / (3.0 * soil.bulk * dt), compliance_t = 1.0 / (2.0 * soil.shear * dt);
-  group.push[lane] = static_cast<T>(push);
-  group.compliance_n[lane] = static_cast<T>(compliance_n);
-  group.compliance_t[lane] = static_cast<T>(compliance_t);
-  group.sine[lane] = static_cast<T>(soil.sine.at(left));
-  group.cohesion[lane] = static_cast<T>(soil.cohesion_at(left));
-  group.dilation[lane] = static_cast<T>(soil.dilation);
-  group.dilates[lane] = static_cast<T>(per_volume * sums.dilates);
-  group.least[lane] = static_cast<T>(soil.least);
-  group.lode[lane] = soil.follows_lode ? T(1) : T(0);
-  // Soil that has parted closes before it is pressed; volume that pressure should account for is an error.
-  const bool closes = soil.opening_at && opening > 0.0;
-  group.closing[lane] = static_cast<T>(kOverRoot3 * (closes ? opening : kGivenBack * opening) / dt);
-  for (int i = 0; i < 6; ++i) {
-    const double r = grid_.rings() && i == 3 ? 0.0 : per_volume * sums.stress[i];
-    group.stress[i][lane] = static_cast<T>(r);
-    group.shift[i][lane] = static_cast<T>(-(i == 0 ? compliance_n : compliance_t) * r);
-  }
-  group.shift[0][lane] += group.closing[lane];
+  mpm_kernel::make_cell(sums, constants_[number_of_soil], dt, grid_.rings(), lane, group, places);
 }
 
 template <class T>
@@ -289,7 +247,7 @@ void SoilCells<T>::add_to_held(HeldImpulses& held) const {
       if (group.place[lane] < 0) continue;
       double r[6];
       for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][lane]);
-      const Symmetric3<double> s = tensor_of(r);
+      const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
       for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
         const int node = group.node[e][lane];
         if (!grid_.held(node)) continue;
@@ -316,7 +274,7 @@ double SoilCells<T>::of_hoops() const {
       double r[6], functions = 0.0;
       for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][lane]);
       for (const auto& hoop : group.gradient[1]) functions += static_cast<double>(hoop[lane]);
-      sum -= static_cast<double>(group.push[lane]) * functions * tensor_of(r).yy;
+      sum -= static_cast<double>(group.push[lane]) * functions * mpm_kernel::tension_of(r).yy;
     }
   }
   return sum;
@@ -329,15 +287,7 @@ void SoilCells<T>::find_motion(const mpm_kernel::SweepTable<T>& table, const std
   table.flow(group, nodes.data(), flow);
   for (int lane = 0; lane < mpm_kernel::kGroupCells; ++lane) {
     if (group.place[lane] < 0) continue;
-    Motion& motion = motion_[group.place[lane]];
-    for (int i = 0; i < 9; ++i) motion.gradient[i] = flow.gradient[i][lane];
-    motion.power = T(0);
-    for (int i = 0; i < 6; ++i) {
-      motion.stress[i] = group.stress[i][lane];
-      motion.power -= motion.stress[i] * flow.rate[i][lane];
-    }
-    motion.shear = flow.shear[lane];
-    motion.opening = flow.opening[lane];
+    mpm_kernel::find_motion(group, flow, lane, motion_[group.place[lane]]);
   }
 }
 

@@ -16,7 +16,7 @@ constexpr double kNoLimit = 1e30;  ///< limit of tension [Pa]
 /// One of the laws that implicit steps have, as ImplicitSoil sees it.
 class Reader {
  public:
-  Reader(ImplicitSoil& soil, Fall& cohesion, std::optional<J2Plasticity>& metal)
+  Reader(ImplicitSoil& soil, Fall& cohesion, std::optional<J2PlasticityDefinition>& metal)
       : soil_(soil), cohesion_(cohesion), metal_(metal) {}
 
   bool operator()(const DruckerPragerDefinition& d) {
@@ -45,7 +45,7 @@ class Reader {
   bool operator()(const J2PlasticityDefinition& d) {
     take_elasticity(d.elasticity);
     take_history<J2Plasticity>();
-    metal_.emplace(d, soil_.density);
+    metal_ = d;
     soil_.yield_stress = d.saturation_rate > 0.0 ? d.saturation_stress : d.yield_stress;
     soil_.least = -kNoLimit;
     soil_.per_strain = -1.0;
@@ -87,7 +87,7 @@ class Reader {
 
   ImplicitSoil& soil_;
   Fall& cohesion_;
-  std::optional<J2Plasticity>& metal_;
+  std::optional<J2PlasticityDefinition>& metal_;
 };
 
 }  // namespace
@@ -101,6 +101,29 @@ std::string refused_implicit(const MaterialDefinition& material) {
 
 ImplicitSoil::ImplicitSoil(const MaterialDefinition& material) : density(material.density) {
   if (!std::visit(Reader(*this, cohesion_, metal_), material.law)) throw MaterialError(refused_implicit(material));
+}
+
+mpm_kernel::SoilConstants ImplicitSoil::constants() const {
+  mpm_kernel::SoilConstants of{};
+  of.bulk = bulk;
+  of.shear = shear;
+  of.sine_end = sine.residual;
+  of.sine_fall = sine.peak - sine.residual;
+  of.cohesion_end = cohesion_.residual;
+  of.cohesion_fall = cohesion_.peak - cohesion_.residual;
+  of.dilation = dilation;
+  of.least = least;
+  of.friction_rise = friction_rise;
+  of.reference_rate = reference_rate;
+  of.follows_lode = follows_lode;
+  of.opens = opening_at.has_value();
+  of.metal = metal_.has_value();
+  if (!metal_) return of;
+  of.yield = metal_->yield_stress;
+  of.hardening = metal_->hardening_modulus;
+  of.saturation = metal_->saturation_rate > 0.0 ? metal_->saturation_stress - metal_->yield_stress : 0.0;
+  of.saturation_rate = metal_->saturation_rate;
+  return of;
 }
 
 SoilRange::SoilRange(const std::vector<ImplicitSoil>& soils) : least_density(soils.front().density) {

@@ -4,5 +4,6 @@
 #pragma clang force_cuda_host_device begin
 #include "mpm_gpu/soil_kernels.hpp"
 #pragma clang force_cuda_host_device end
+#include "mpm_gpu/device/law_functions.hpp"
 
 #include "../lane/soil.cpp"

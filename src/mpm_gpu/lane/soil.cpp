@@ -46,7 +46,11 @@ struct SoilPassesOf {
   }
   static HeldSums held(Executor& run, const Step& step, const Soil& soil, Buffer<HeldSums>& partial) {
     return run.template reduce<HeldSums>(
-        "gpu: accounts", step.nodes.nodes * soil.soils, [=](long i) { return HeldOfCell<T, kDim>{&soil, i}; }, partial);
+        "gpu: accounts", step.nodes.nodes * soil.soils,
+        [=](long i) {
+          return HeldOfCell<T, kDim>{&soil, i};
+        },
+        partial);
   }
   static void motion(Executor& run, const Step& step, const Soil& soil) {
     run.for_each("gpu: cells to particles", step.nodes.nodes * soil.soils, SoilMotionKernel<T, kDim>{soil});
@@ -58,7 +62,11 @@ struct SoilPassesOf {
   }
   static DeedSums deeds(Executor& run, const Step& step, const Soil& soil, Buffer<DeedSums>& partial) {
     return run.template reduce<DeedSums>(
-        "gpu: accounts", step.nodes.nodes, [=](long i) { return SolvedNode<T, kDim>{&soil, &step, i}; }, partial);
+        "gpu: accounts", step.nodes.nodes,
+        [=](long i) {
+          return SolvedNode<T, kDim>{&soil, &step, i};
+        },
+        partial);
   }
   static void store(Executor& run, const Step& step, const Soil& soil) {
     run.for_each("gpu: nodes of the soil", step.nodes.nodes, SoilStoreKernel<T, kDim>{soil, step});
@@ -75,9 +83,9 @@ struct SoilPassesOf {
   static void owners(Executor& run, const Step& step, std::uint8_t* to) {
     run.for_each("gpu: blocks", step.nodes.blocks, OwnersKernel<T>{step, nodes_of_block(kDim), to});
   }
-  static constexpr SoilPassTable<T> kPasses = {&numbers, &load,   &cells, &push, &sweep, &changes, &go_on,
-                                               &go_on_in_rows, &meet,  &held,  &motion, &take, &deeds, &store,
-                                               &pack, &unpack, &impulses, &owners};
+  static constexpr SoilPassTable<T> kPasses = {&numbers, &load,          &cells, &push,   &sweep,    &changes,
+                                               &go_on,   &go_on_in_rows, &meet,  &held,   &motion,   &take,
+                                               &deeds,   &store,         &pack,  &unpack, &impulses, &owners};
 };
 
 template <class T>

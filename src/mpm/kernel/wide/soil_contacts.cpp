@@ -1,91 +1,24 @@
 // Contacts of the implicit step: points of rigid bodies and nodes on walls with friction, one after another.
-#include <algorithm>
-#include <cmath>
-
-#include "mpm/kernel/soil_cells.hpp"
-#include "mpm/kernel/soil_lanes.hpp"
+#include "mpm/kernel/soil_contact.hpp"
 
 namespace mpm {
-namespace {
-
-using mpm_kernel::ContactRow;
-using mpm_kernel::kCellNodes;
-using mpm_kernel::SoilNode;
-using mpm_kernel::WallRow;
-
-template <class T>
-Four<T>& four(T* of) {
-  return *reinterpret_cast<Four<T>*>(of);
-}
-
-/// The impulse of Coulomb's law where an impulse l makes the velocity u + own l: no approach, no pull.
-template <class T>
-inline __attribute__((always_inline)) void coulomb(const T* u, const T* normal, T own, T friction, T* l) {
-  const T un = u[0] * normal[0] + u[1] * normal[1] + u[2] * normal[2];
-  const T ln = -un / own;
-  if (ln <= T(0)) {
-    l[0] = l[1] = l[2] = T(0);
-    return;
-  }
-  T along = T(0);
-  for (int a = 0; a < 3; ++a) {
-    l[a] = -(u[a] - un * normal[a]) / own;
-    along += l[a] * l[a];
-  }
-  const T most = friction * ln;
-  const T part = friction >= T(0) && along > most * most ? most / std::sqrt(along) : T(1);
-  for (int a = 0; a < 3; ++a) l[a] = part * l[a] + ln * normal[a];
-}
-
-template <class T>
-void relax(ContactRow<T>& row, SoilNode<T>* nodes) {
-  Four<T> part[2] = {};  // sums of even and odd nodes, so that half as many sums wait for each other
-  for (int e = 0; e < kCellNodes; ++e) part[e % 2] += four(row.weight[e]) * four(nodes[row.node[e]].v);
-  const Four<T> velocity = part[0] + part[1];
-  T u[3], l[3];
-  for (int a = 0; a < 3; ++a) u[a] = velocity[a] - row.velocity[a] - row.own * row.impulse[a];
-  coulomb(u, row.normal, row.own, row.friction, l);
-  const Four<T> change = {l[0] - row.impulse[0], l[1] - row.impulse[1], l[2] - row.impulse[2], T(0)};
-  for (int a = 0; a < 3; ++a) row.impulse[a] = l[a];
-  // The fourth number of a node, its inverse mass, has no weight.
-  for (int e = 0; e < kCellNodes; ++e) {
-    SoilNode<T>& node = nodes[row.node[e]];
-    four(node.v) += node.inverse_mass * (four(row.weight[e]) * change);
-  }
-}
-
-template <class T>
-void relax(WallRow<T>& row, SoilNode<T>* nodes) {
-  SoilNode<T>& node = nodes[row.node];
-  T normal[3] = {T(0), T(0), T(0)}, u[3], l[3];
-  normal[row.axis] = row.out;
-  for (int a = 0; a < 3; ++a) u[a] = row.free[a] * (node.v[a] - node.inverse_mass * row.impulse[a]);
-  coulomb(u, normal, node.inverse_mass, row.friction, l);
-  for (int a = 0; a < 3; ++a) {
-    node.v[a] += node.inverse_mass * (l[a] - row.impulse[a]);
-    row.impulse[a] = l[a];
-  }
-}
-
-}  // namespace
 
 template <class T>
 void meet_contacts(const mpm_kernel::SoilBlock<T>& block, mpm_kernel::SoilNode<T>* nodes) {
-  constexpr int kPasses = 2;  // rows of a body bind the same nodes
-  for (int i = 0; i < block.wall_count; ++i) relax(block.walls[i], nodes);
-  for (int pass = 0; pass < kPasses; ++pass) {
-    for (int i = 0; i < block.row_count; ++i) relax(block.rows[i], nodes);
+  for (int i = 0; i < block.wall_count; ++i) soil::touch_wall(block.walls[i], nodes);
+  for (int pass = 0; pass < soil::kContactPasses; ++pass) {
+    for (int i = 0; i < block.row_count; ++i) soil::touch_row(block.rows[i], nodes);
   }
 }
 
 template <class T>
-void touch_contact(ContactRow<T>& row, SoilNode<T>* nodes) {
-  relax(row, nodes);
+void touch_contact(mpm_kernel::ContactRow<T>& row, mpm_kernel::SoilNode<T>* nodes) {
+  soil::touch_row(row, nodes);
 }
 
-template void touch_contact(ContactRow<double>&, SoilNode<double>*);
-template void touch_contact(ContactRow<float>&, SoilNode<float>*);
-template void meet_contacts(const mpm_kernel::SoilBlock<double>&, SoilNode<double>*);
-template void meet_contacts(const mpm_kernel::SoilBlock<float>&, SoilNode<float>*);
+template void touch_contact(mpm_kernel::ContactRow<double>&, mpm_kernel::SoilNode<double>*);
+template void touch_contact(mpm_kernel::ContactRow<float>&, mpm_kernel::SoilNode<float>*);
+template void meet_contacts(const mpm_kernel::SoilBlock<double>&, mpm_kernel::SoilNode<double>*);
+template void meet_contacts(const mpm_kernel::SoilBlock<float>&, mpm_kernel::SoilNode<float>*);
 
 }  // namespace mpm

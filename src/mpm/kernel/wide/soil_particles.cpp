@@ -8,24 +8,16 @@
 #include <array>
 #include <type_traits>
 
-#include "mpm/kernel/soil_cells.hpp"
-#include "mpm/kernel/soil_lanes.hpp"
-#include "mpm/kernel/stress.hpp"
+#include "mpm/kernel/soil_exchange.hpp"
 
 namespace mpm {
 namespace {
 
-using mpm_kernel::kOverRoot2;
-using mpm_kernel::kOverRoot3;
-using mpm_kernel::kOverRoot6;
 using mpm_kernel::SoilMotion;
 using mpm_kernel::SoilParticles;
 using mpm_kernel::SoilPlacesOf;
 using mpm_kernel::SoilSums;
 
-constexpr double kThinnest = 1e-5;   ///< part of a box: a piece that is thinner is none
-constexpr double kDensest = 0.02;    ///< logarithmic volume: the most that is remembered of soil that is too dense
-constexpr double kMostStrain = 0.2;  ///< strain of volume that a step may give a particle
 constexpr int kChunk = 64;
 constexpr int kPadded = kChunk + 16;  ///< and what the last register writes beyond them
 
@@ -46,19 +38,12 @@ struct Cuts {
   }
   /// The box from `low` to `high` about `at`, in cells; `whole`: 1 over its width.
   inline __attribute__((always_inline)) void cut(int q, double at, double low, double high, double whole) {
-    constexpr int kShift = 64;
-    const int i = static_cast<int>(low + kShift) - kShift;
-    const double face = i + 1.0;  // between the two
-    double above = std::max(high - face, 0.0) * whole;
-    above = above < kThinnest ? 0.0 : above > 1.0 - kThinnest ? 1.0 : above;
-    // A box in one cell has its own middle there.
-    const double lower = above > 0.0 ? 0.5 * (low - face) + 1.0 : at - i;
-    const double upper = above < 1.0 ? 0.5 * (high - face) : at - face;
-    cell[q] = i;
-    part[0][q] = static_cast<T>(1.0 - above);
-    part[1][q] = static_cast<T>(above);
-    middle[0][q] = static_cast<T>(lower);
-    middle[1][q] = static_cast<T>(upper);
+    const soil::Cut<T> one(at, low, high, whole);
+    cell[q] = one.cell;
+    for (int piece = 0; piece < 2; ++piece) {
+      part[piece][q] = one.part[piece];
+      middle[piece][q] = one.middle[piece];
+    }
   }
 };
 
@@ -139,24 +124,6 @@ inline __attribute__((always_inline)) void each_piece(const Boxes<Geometry, T>& 
   }
 }
 
-template <class Geometry, class W>
-auto velocity_gradient(const W (&l)[3][3]) {
-  if constexpr (Geometry::kDim == 3) {
-    return Matrix3<W>{l[0][0], l[0][1], l[0][2], l[1][0], l[1][1], l[1][2], l[2][0], l[2][1], l[2][2]};
-  } else {
-    return MatrixPlane<W>{l[0][0], l[0][2], l[2][0], l[2][2], Geometry::kHoop ? l[1][1] : W(0.0)};
-  }
-}
-
-template <class Geometry, class W>
-auto in_geometry(const Symmetric3<W>& s) {
-  if constexpr (Geometry::kDim == 3) {
-    return s;
-  } else {
-    return SymmetricPlane<W>{s.xx, s.zz, s.xz, s.yy};
-  }
-}
-
 template <class T>
 struct Rows {
   typedef T Sixteen __attribute__((vector_size(16 * sizeof(T)), aligned(sizeof(T)), may_alias));
@@ -187,13 +154,6 @@ inline __attribute__((always_inline)) typename Rows<T>::Sixteen over_radius(type
   return kLine ? Sixteen{} + one * cuts.centre[piece][q] : f;
 }
 
-/// Logarithmic volume, of a law whose pressure is K (1 / j - j) / 2 (material/neo_hookean.hpp), that its pressure does
-/// not account for.
-template <class W>
-W volume_beyond_pressure(W pressure, W j, double bulk) {
-  return max(min(W(1.0 / bulk) * pressure + W(0.5) * (j - W(1.0) / j), W(kDensest)), W(-kDensest));
-}
-
 template <class Geometry, class T>
 void gather(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places) {
   using W = Wide<T>;
@@ -219,26 +179,9 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
     const int count = std::min(kChunk, last - begin);
     for (int q = 0; q < count; q += W::kLanes) {
       const int p = begin + q, lanes = count - q;
-      const W j = determinant(Geometry::load_matrix(WideReader<T>{set.f, lanes}, p));
-      const auto tau = full(Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p));
-      const W mass = set.masses != nullptr ? W::load_first(set.masses + p, lanes) : W(set.mass);
-      const W scale = -(W(set.density) / j);  // compression is positive
-      const W xx = scale * tau.xx, yy = scale * tau.yy, zz = scale * tau.zz, shear = scale * W(1.0 / kOverRoot2);
-      const W opening = set.opening != nullptr ? W::load_first(set.opening + p, lanes)
-                                               : volume_beyond_pressure(W(1.0 / 3.0) * (xx + yy + zz), j, set.bulk);
-      const W left = max(W(1.0) - W(set.per_strain) * W::load_first(set.strain + p, lanes), W(0.0));
-      const W dilates = left * max(min(W(set.dilation_start) - W(set.dilation_slope) * j, W(1.0)), W(0.0));
-      (mass * W(1.0 / set.density) * j).store(numbers[0] + q);
-      (W(kOverRoot3) * (xx + yy + zz)).store(numbers[1] + q);
-      (W(kOverRoot2) * (xx - yy)).store(numbers[2] + q);
-      (W(kOverRoot6) * (zz + zz - xx - yy)).store(numbers[3] + q);
-      (kHoop ? W(1.0) : shear * tau.yz).store(numbers[4] + q);
-      (shear * tau.xz).store(numbers[5] + q);
-      (shear * tau.xy).store(numbers[6] + q);
-      opening.store(numbers[7] + q);
-      left.store(numbers[8] + q);
-      // Soil that has opened has room to dilate into.
-      select(opening > W(0.0), W(0.0), dilates).store(numbers[9] + q);
+      W of[soil::kNumbers];
+      soil::numbers_of<Geometry>(set, p, lanes, of);
+      for (int i = 0; i < soil::kNumbers; ++i) of[i].store(numbers[i] + q);
     }
     for (int q = 0; q < count; ++q) {
       const T volume = numbers[0][q];
@@ -269,7 +212,7 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
           double dt) {
   using W = Wide<T>;
   using Eight = typename Rows<T>::Eight;
-  constexpr int kNumbers = 18;
+  constexpr int kNumbers = soil::kMotionNumbers;
   static_assert(sizeof(SoilMotion<T>) >= 24 * sizeof(T));
   constexpr int kDim = Geometry::kDim;
   static const SoilMotion<T> kNowhere[kDim == 3 ? 64 : 16] = {};
@@ -298,45 +241,9 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
     }
     for (int q = 0; q < count; q += W::kLanes) {
       const int p = begin + q, lanes = count - q;
-      const auto number = [&](int i) { return W::load(numbers[i] + q); };
-      W l[3][3];
-      for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < 3; ++k) l[c][k] = number(3 * c + k) * W(dt);
-      }
-      const W trace_l = l[0][0] + l[1][1] + l[2][2];
-      constexpr bool kThree = Geometry::kDim == 3 || Geometry::kHoop;
-      const W excess = (trace_l - max(min(trace_l, W(kMostStrain)), W(-kMostStrain))) * W(1.0 / (kThree ? 3 : 2));
-      for (int k = 0; k < 3; ++k) {
-        if (kThree || k != 1) l[k][k] -= excess;
-      }
-      const W r0 = W(kOverRoot3) * number(9), r1 = W(kOverRoot2) * number(10), r2 = W(kOverRoot6) * number(11);
-      const Symmetric3<W> cauchy{-(r0 + r1 - r2),
-                                 -(r0 - r1 - r2),
-                                 -(r0 + r2 + r2),
-                                 W(-kOverRoot2) * number(12),
-                                 W(-kOverRoot2) * number(13),
-                                 W(-kOverRoot2) * number(14)};
-      const auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
-      const auto tau_old = Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p);
-      const W j_old = determinant(old);
-      const auto du = velocity_gradient<Geometry>(l);
-      const auto now = product(exponential(du, 2), old);
-      const W j = determinant(now);
-      const auto tau = scale_shift(rotate(in_geometry<Geometry>(cauchy), du), j * W(1.0 / set.density), W(0.0));
-      const auto stored = [&](const auto& s, W volume) {  // elastic energy of a mass unit
-        const W mean = trace(s) * W(1.0 / 3.0), deviator = squared_norm(scale_shift(s, W(1.0), -mean));
-        return W(set.density) / volume * (mean * mean * W(0.5 / set.bulk) + deviator * W(0.25 / set.shear));
-      };
-      const W work = W(dt / set.density) * number(17) * j_old - (stored(tau, j) - stored(tau_old, j_old));
-      Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
-      Geometry::store_symmetric(tau, WideWriter<T>{set.tau, lanes}, p);
-      if (set.opening != nullptr) {
-        const W opening = W::load_first(set.opening + p, lanes) + W(dt / kOverRoot3) * number(15);
-        max(opening, W(-kDensest)).store_first(set.opening + p, lanes);
-      }
-      (W::load_first(set.strain + p, lanes) + W(dt * set.strain_of_shear) * number(16))
-          .store_first(set.strain + p, lanes);
-      (W::load_first(set.work + p, lanes) + work).store_first(set.work + p, lanes);
+      W of[soil::kMotionNumbers];
+      for (int i = 0; i < soil::kMotionNumbers; ++i) of[i] = W::load(numbers[i] + q);
+      soil::take_motion<Geometry>(set, p, lanes, of, dt);
     }
   }
 }

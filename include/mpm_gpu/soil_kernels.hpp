@@ -287,7 +287,7 @@ struct HeldOfCell {
   friend constexpr HeldSums& operator+=(HeldSums& sums, const HeldOfCell& one) {
     const mpm_kernel::SoilGroup<T, 1>& group = one.soil->cell[one.cell];
     if (group.place[0] < 0 || group.mask < 0) return sums;
-    double r[6];
+    double r[6] = {};
     for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][0]);
     const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
     for (int e = 0; e < kMembers<Dim>; ++e) {

@@ -15,6 +15,7 @@
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/prescribed_passes.hpp"
+#include "mpm_gpu/soil_kernels.hpp"
 #pragma clang force_cuda_host_device end
 #include "mpm_gpu/device/law_functions.hpp"
 
@@ -34,6 +35,12 @@ __attribute__((global)) void launch_sum(Kernel kernel, long count, Sum* sums) {
   const long i =
       static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + __nvvm_read_ptx_sreg_tid_x();
   if (i < count) sums[i] += kernel(i);
+}
+
+/// A thread a member of a team.
+template <class Kernel>
+__attribute__((global)) void launch_turn(Kernel kernel, int turn) {
+  kernel(static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()), turn, static_cast<int>(__nvvm_read_ptx_sreg_tid_x()));
 }
 
 template <class T, class Geometry, template <class> class ShapeClass>
@@ -66,6 +73,27 @@ void each_of_loads() {
   (void)&launch<PutBackKernel<T, Dim>>;
 }
 
+template <class T, class Geometry>
+void each_of_soil() {
+  constexpr int kDim = Geometry::kDim;
+  (void)&launch<SoilNumbersKernel<T, Geometry>>;
+  (void)&launch<SoilLoadKernel<T, kDim>>;
+  (void)&launch<SoilCellKernel<T, Geometry>>;
+  (void)&launch_turn<SoilPushKernel<T, kDim>>;
+  (void)&launch_turn<SoilSweepKernel<T, kDim>>;
+  (void)&launch<SoilChangesKernel<T, kDim>>;
+  (void)&launch<SoilMotionKernel<T, kDim>>;
+  (void)&launch<SoilTakeKernel<T, Geometry>>;
+  (void)&launch<SoilStoreKernel<T, kDim>>;
+  if constexpr (kDim == 2) return;
+  (void)&launch<SoilGoOnKernel<T>>;
+  (void)&launch<RowsGoOnKernel<T>>;
+  (void)&launch<SoilMeetKernel<T>>;
+  (void)&launch<ImpulsesKernel<T>>;
+  (void)&launch<PackKernel<T>>;
+  (void)&launch<UnpackKernel<T>>;
+}
+
 /// False for a user's law, which is code of the host.
 template <class OneLaw>
 constexpr bool kOnDevice = !std::is_same_v<OneLaw, mpm::UserLaw>;
@@ -89,6 +117,7 @@ void each_kernel() {
   each_pass<T, Geometry, mpm::QuadraticSpline>();
   each_pass<T, Geometry, mpm::CubicSpline>();
   each_of_loads<T, Geometry::kDim>();
+  each_of_soil<T, Geometry>();
   (void)&launch<DomainKernel<T, Geometry::kDim>>;
   (void)&launch<FirstIncrementKernel<T, Geometry::kDim>>;
   (void)&launch<FirstIncrementKernel<T, Geometry::kDim, true>>;

@@ -4,8 +4,8 @@
 // hooks at which that stage acts.
 //
 // Weak: a step waits for the host at these hooks while anything is asleep, and once more for the check whether a
-// particle has left its block. In the first step of a run whose material sleeps from the start, and in all steps where
-// slow nodes are damped, all nodes are copied.
+// particle has left its block. In the first step of a run whose material sleeps from the start, in all steps where
+// slow nodes are damped, and where loads are on what may fall asleep, all nodes are copied.
 #pragma once
 
 #include <cstdint>

@@ -46,7 +46,7 @@ class HostRest {
   virtual Fields& fields() = 0;
   /// The run's sets, whose order and blocks are those of that sort.
   virtual const std::vector<ParticleSet>& sets() = 0;
-  /// True if it looks at all nodes in this step, and not at those that are held alone.
+  /// True if it looks at all nodes in this step, and not at those that are held alone; known once it has acted.
   virtual bool needs_all() const = 0;
   /// Acts on these fields as the stage does at a hook; at `forces_gathered` Grid::force is the sum of all forces.
   virtual void act(Hook hook) = 0;

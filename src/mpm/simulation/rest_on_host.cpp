@@ -7,13 +7,17 @@ namespace mpm {
 
 void RestOnHost::begin_step(StepContext& context) {
   context_ = &context;
-  all_ = sleep_.needs_all_nodes();
-  left_ = false;
+  all_ = left_ = false;
 }
 
 void RestOnHost::act(Hook hook) {
   if (hook == Hook::momentum_gathered && sleep_.looks_next()) device_->fetch(sets_, Device::Numbers::velocity);
+  if (hook == Hook::forces_gathered && sleep_.needs_forces()) {
+    device_->fetch(sets_, Device::Numbers::motion);
+    sleep_.find_forces(*context_);
+  }
   modules_.act(hook, hook == Hook::momentum_updated ? Rank::at_rest : Rank::asleep, *context_);
+  if (hook == Hook::momentum_gathered) all_ = sleep_.needs_all_nodes() || sleep_.needs_forces();
 }
 
 void RestOnHost::find_loose() {
@@ -39,7 +43,7 @@ void RestOnHost::find_loose() {
   }
 }
 
-// Where some fall asleep or wake the device begins anew with those that are awake then.
+// Begins anew on the device where some have fallen asleep or woken, with those that are awake then.
 void Simulation::State::sort_beside_device(double now) {
   const bool changes = rest_on_host->has_work_for_sort();
   fetch(changes ? Device::Numbers::all : Device::Numbers::motion);

@@ -15,10 +15,12 @@ class CellTable {
  public:
   CellTable(const GridView& grid, int dim);
 
-  /// Places of particles [m], and their ids, which in a set have no gap.
+  /// Places of particles [m], and their ids.
   struct Places {
     const double* x[3];
     const std::uint32_t* id;
+    /// Number of each id among those of all sets, in their order; null where a set's ids have no gap.
+    const std::uint32_t* number = nullptr;
   };
 
   /// Makes room for so many particles, and for twice as many blocks as hold particles now. Between steps only.

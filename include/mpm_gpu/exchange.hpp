@@ -22,16 +22,16 @@ std::string refused(const mpm::SimulationDefinition& definition);
 template <class T>
 class DeviceRun {
  public:
-  /// `sets`: of an assembled Simulation of this definition, of precision T; every set has the name of its body.
+  /// `sets`: of an assembled Simulation of this definition, of precision T; every set has the name of its body. The run
+  /// has the particles that are awake.
   /// `modules`: those of a simulation whose steps this takes, which outlive it. @throws GpuError for what is refused
   DeviceRun(const mpm::SimulationDefinition& definition, const std::vector<mpm::ParticleSet>& sets,
             Executor executor = Executor(), const mpm::RunModules* modules = nullptr);
 
   Solver<T>& solver() { return solver_; }
   /// Writes the particles' numbers back, each to where its id lies. They have moved: the simulation has to sort them.
-  /// Their places at the start go around periodic axes as they have done since the last call.
-  /// `all`: whether more than places and velocities.
-  void write_to(std::vector<mpm::ParticleSet>& sets, bool all = true);
+  /// Their places at the start go around periodic axes as they have done since places were last asked for.
+  void write_to(std::vector<mpm::ParticleSet>& sets, mpm::Device::Numbers which = mpm::Device::Numbers::all);
 
  private:
   mpm::GridLayout layout_;

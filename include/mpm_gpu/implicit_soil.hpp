@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mpm/implicit/implicit_step.hpp"
+#include "mpm/step/device.hpp"
 #include "mpm_gpu/near_copies.hpp"
 #include "mpm_gpu/soil_passes.hpp"
 #include "mpm_gpu/solver.hpp"
@@ -26,9 +27,10 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
  public:
   using Node = mpm_kernel::SoilNode<T>;
 
-  /// All outlive this object, which takes the place of the soil in `solve`. `sets`: of the simulation.
+  /// All outlive this object, which takes the place of the soil in `solve`. `sets`: of the simulation. `rest`: sleep
+  /// beside it; null without it.
   ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, double across,
-               Solver<T>& solver);
+               mpm::HostRest* rest, Solver<T>& solver);
 
   // Of Stage.
   void make_room(Executor& run, long nodes) override;
@@ -55,6 +57,9 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
  private:
   /// Lets the host's grid have the blocks of the table.
   void take_blocks();
+  /// Names the nodes that sleep holds.
+  void take_rest();
+  void store_at_rest();
   /// Takes holders of nodes and colours of blocks from the host's grid.
   void take_grid();
   SoilView<T> view();
@@ -70,6 +75,7 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   void download_impulses(long rows, long walls);
 
   mpm::ImplicitSolve<T>& solve_;
+  mpm::HostRest* rest_;
   Solver<T>& solver_;
   const mpm::GridLayout layout_;
   double across_, radius_;  ///< radius of the ball around a block in which its particles are at a step's end [m]
@@ -81,15 +87,15 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   Executor* run_ = nullptr;
   StepView<T> step_{};  ///< of the step under way, or of the last one
   double start_ = 0.0;
-  long sorts_ = -1;
-  bool fresh_ = false;                ///< blocks have been taken, but not what depends on them
-  std::vector<Node> nodes_;           ///< on the host
-  std::int32_t none_ = 0;             ///< number in the table that stands for none
-  std::vector<std::int32_t> map_;     ///< number in the table of each node on the host
-  std::vector<std::int32_t> blocks_;  ///< and of each block
-  std::array<long, 9> colour_{};      ///< where the blocks of each colour begin in order_
-  std::array<long, 9> touched_{};     ///< and those with rows in ranges_there_
-  std::vector<std::int32_t> list_, free_;
+  long sorts_ = 0, taken_ = -1;                      ///< sorts before this step, and when the blocks were taken
+  bool fresh_ = false;                               ///< blocks have been taken, but not what depends on them
+  std::vector<Node> nodes_;                          ///< on the host
+  std::int32_t none_ = 0;                            ///< number in the table that stands for none
+  std::vector<std::int32_t> map_;                    ///< number in the table of each node on the host
+  std::vector<std::int32_t> blocks_;                 ///< and of each block
+  std::array<long, 9> colour_{};                     ///< where the blocks of each colour begin in order_
+  std::array<long, 9> touched_{};                    ///< and those with rows in ranges_there_
+  std::vector<std::int32_t> list_, free_, at_rest_;  ///< numbers in the table
   std::vector<int> free_nodes_;
   std::vector<std::uint64_t> keys_, owners_;
   std::vector<std::size_t> ends_;
@@ -100,7 +106,7 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   std::vector<mpm_kernel::WallRow<T>> walls_;
   std::vector<mpm_kernel::SweepChange> changes_;
   std::vector<std::uint32_t> ranges_, near_, ids_;
-  std::vector<double> surfaces_, places_;
+  std::vector<double> surfaces_, places_, forces_;
   NearCopies<T> copies_;
 
   Buffer<Node> node_, before_, node_room_;
@@ -109,10 +115,11 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   Buffer<mpm_kernel::SoilMotion<T>> motion_;
   std::array<Buffer<T>, kSoilNumbers> number_;
   Buffer<std::uint8_t> holder_, marked_there_;
-  Buffer<std::int32_t> order_, map_there_, free_there_, ranges_there_;
+  Buffer<std::int32_t> order_, map_there_, free_there_, ranges_there_, at_rest_there_;
   Buffer<mpm_kernel::ContactRow<T>> row_;
   Buffer<mpm_kernel::WallRow<T>> wall_;
   Buffer<T> impulse_room_;
+  Buffer<double> force_room_;
   Buffer<mpm_kernel::SweepChange> change_, change_room_;
   Buffer<HeldSums> of_held_;
   Buffer<DeedSums> of_deeds_;

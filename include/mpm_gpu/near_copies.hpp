@@ -1,8 +1,8 @@
 // Copies of the nodes of some blocks, and of some particles, between the device and the host. On the host nodal numbers
 // lie as in mpm/grid/nodal_fields.hpp, [block][component][node].
 //
-// When velocities come back, walls hold their nodes again, as they do after contact (mpm/step/order.hpp): frictional
-// ones, which have not acted at these nodes before, then those that always hold.
+// When velocities come back from contact, walls hold their nodes again (mpm/step/order.hpp): frictional ones, which
+// have not acted at these nodes before, then those that always hold.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ namespace mpm_gpu {
 template <class T>
 class NearCopies {
  public:
-  explicit NearCopies(int dim) : dim_(dim), per_block_(nodes_of_block(dim)) {}
+  /// `walls_again`: whether walls hold nodes whose velocities come back.
+  NearCopies(int dim, bool walls_again) : dim_(dim), walls_again_(walls_again), per_block_(nodes_of_block(dim)) {}
 
   /// Keys of all blocks of the table.
   void download_keys(Executor& run, const NodeView& nodes, std::vector<std::uint64_t>& keys);
@@ -67,6 +68,7 @@ class NearCopies {
   void take_increment(Executor& run, const StepView<T>& step);
 
   int dim_;
+  bool walls_again_;
   long per_block_, blocks_ = 0, particles_ = 0;
   Buffer<std::int32_t> block_;      ///< numbers in the table
   Buffer<std::uint32_t> particle_;  ///< numbers of the particles

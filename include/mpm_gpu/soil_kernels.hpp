@@ -278,7 +278,21 @@ struct SoilMeetKernel {
   }
 };
 
-/// Impulses that the stress of a cell gives to components that are held, as a part of the sum over cells.
+/// The impulse that a cell's stress gives to one of its nodes, by its number among them [N s].
+template <class T>
+constexpr void impulse_on(const mpm_kernel::SoilGroup<T, 1>& group, int e, double (&impulse)[3]) {
+  double r[6] = {};
+  for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][0]);
+  const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
+  const double b[3] = {static_cast<double>(group.gradient[0][e][0]), static_cast<double>(group.gradient[1][e][0]),
+                       static_cast<double>(group.gradient[2][e][0])};
+  const double push = static_cast<double>(group.push[0]);
+  impulse[0] = -push * (s.xx * b[0] + s.xy * b[1] + s.xz * b[2]);
+  impulse[1] = -push * (s.xy * b[0] + s.yy * b[1] + s.yz * b[2]);
+  impulse[2] = -push * (s.xz * b[0] + s.yz * b[1] + s.zz * b[2]);
+}
+
+/// Impulses that the stress of a cell gives to components that walls hold, as a part of the sum over cells.
 template <class T, int Dim>
 struct HeldOfCell {
   const SoilView<T>* soil;
@@ -287,21 +301,45 @@ struct HeldOfCell {
   friend constexpr HeldSums& operator+=(HeldSums& sums, const HeldOfCell& one) {
     const mpm_kernel::SoilGroup<T, 1>& group = one.soil->cell[one.cell];
     if (group.place[0] < 0 || group.mask < 0) return sums;
-    double r[6] = {};
-    for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][0]);
-    const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
     for (int e = 0; e < kMembers<Dim>; ++e) {
-      const double b[3] = {static_cast<double>(group.gradient[0][e][0]), static_cast<double>(group.gradient[1][e][0]),
-                           static_cast<double>(group.gradient[2][e][0])};
-      const double force[3] = {s.xx * b[0] + s.xy * b[1] + s.xz * b[2], s.xy * b[0] + s.yy * b[1] + s.yz * b[2],
-                               s.xz * b[0] + s.yz * b[1] + s.zz * b[2]};
+      double impulse[3] = {};
+      impulse_on(group, e, impulse);
       for (int a = 0; a < 3; ++a) {
         if (one.soil->mask[one.cell].free[a][e][0] != T(0)) continue;
         const std::uint8_t holder = one.soil->holder[3L * group.node[e][0] + a];
-        sums.of[holder][a] -= static_cast<double>(group.push[0]) * force[a];
+        if (holder != kAtRestComponent) sums.of[holder][a] += impulse[a];
       }
     }
     return sums;
+  }
+};
+
+template <class T, int Dim>
+struct HeldAtRestKernel {
+  SoilView<T> soil;
+  NodeView nodes;
+  const std::int32_t* numbers;
+  double* to;
+
+  void operator()(long i) const {
+    const long node = numbers[i], block = node / nodes_of_block(Dim);
+    const Local<Dim> local = local_of<Dim>(node);
+    double sum[3] = {};
+    for (int e = 0; e < kMembers<Dim>; ++e) {
+      Local<Dim> below = local;
+      for (int k = 0; k < Dim; ++k) below.at[k] -= e >> k & 1;
+      const long lower = number_of<Dim>(nodes, block, below);
+      if (lower < 0) continue;
+      const int place = place_of_cell<Dim>(local_of<Dim>(lower).at);
+      for (int s = 0; s < soil.soils; ++s) {
+        const auto& group = soil.cell[cell_number<Dim>(nodes, s, lower / nodes_of_block(Dim), place)];
+        if (group.place[0] < 0) continue;
+        double impulse[3] = {};
+        impulse_on(group, e, impulse);
+        for (int a = 0; a < 3; ++a) sum[a] += soil.holder[3 * node + a] == kAtRestComponent ? impulse[a] : 0.0;
+      }
+    }
+    for (int a = 0; a < 3; ++a) to[3 * i + a] = sum[a];
   }
 };
 
@@ -370,6 +408,7 @@ struct SolvedNode {
     for (int k = 0; k < Dim; ++k) {
       const int axis = world_axis<Dim>(k);
       const std::uint8_t holder = soil->holder[3 * n + axis];
+      if (holder == kAtRestComponent) continue;
       const bool held = holder != kFreeComponent;
       const long at = k * nodes.nodes + n;
       const double found = held ? 0.0 : static_cast<double>(soil->node[n].v[axis]);
@@ -401,6 +440,29 @@ struct SoilStoreKernel {
       step.nodes.velocity[k * step.nodes.nodes + n] = solved.velocity;
       step.nodes.acceleration[k * step.nodes.nodes + n] = solved.acceleration;
     });
+  }
+};
+
+template <class T, int Dim>
+struct StoreAtRestKernel {
+  SoilView<T> soil;
+  StepView<T> step;
+  const std::int32_t* numbers;
+  const double* impulses;
+
+  void operator()(long i) const {
+    const NodeView& nodes = step.nodes;
+    const long node = numbers[i];
+    const double mass = nodes.mass[node];
+    if (!(mass > step.grid.least_mass)) return;
+    for (int k = 0; k < Dim; ++k) {
+      const int axis = world_axis<Dim>(k);
+      if (soil.holder[3 * node + axis] != kAtRestComponent) continue;
+      const long at = k * nodes.nodes + node;
+      const double velocity = nodes.velocity[at] + impulses[3 * i + axis] / mass;
+      nodes.velocity[at] = velocity;
+      nodes.acceleration[at] = (velocity - nodes.momentum[at] / mass) / step.settings.dt;
+    }
   }
 };
 

@@ -17,7 +17,7 @@ namespace mpm_gpu {
 constexpr int kSoilNumbers = 10;  ///< numbers that a particle gives to its cells
 
 /// Who holds a component of a node's velocity, in the numbers of mpm::SoilGrid.
-constexpr std::uint8_t kFreeComponent = 255;
+constexpr std::uint8_t kFreeComponent = 255, kAtRestComponent = 6;
 
 /// Place of a cell among those of its block, by its number along each axis, of a node likewise, 0 to 3: that of its
 /// turn, and in this of the member.
@@ -107,6 +107,9 @@ struct SoilPassTable {
   void (*meet)(Executor&, const SoilView<T>&, const RowsView<T>& rows, long count);
   /// Finds what held components take of stresses; `partial`: room for the sums of groups of nodes.
   HeldSums (*held)(Executor&, const StepView<T>&, const SoilView<T>&, Buffer<HeldSums>& partial);
+  /// Impulses that stresses give to components at rest of some nodes, by their numbers: three of each.
+  void (*held_at_rest)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* numbers, long count,
+                       double* to);
   /// Finds the motion of all cells, for the particles.
   void (*motion)(Executor&, const StepView<T>&, const SoilView<T>&);
   /// Strain and stress of the particles of a set, whose soil has this number.
@@ -116,6 +119,9 @@ struct SoilPassTable {
   DeedSums (*deeds)(Executor&, const StepView<T>&, const SoilView<T>&, Buffer<DeedSums>& partial);
   /// Gives the grid the velocities that were found.
   void (*store)(Executor&, const StepView<T>&, const SoilView<T>&);
+  /// Gives components at rest of some nodes the velocity that they would have, with these impulses, three of each.
+  void (*store_at_rest)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* numbers, long count,
+                        const double* impulses);
   /// Copies nodes by their numbers, to a list or from one.
   void (*pack)(Executor&, const SoilView<T>&, const std::int32_t* numbers, long count, mpm_kernel::SoilNode<T>* to);
   void (*unpack)(Executor&, const SoilView<T>&, const std::int32_t* numbers, long count,

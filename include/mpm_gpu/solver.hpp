@@ -45,6 +45,7 @@ struct ParticleStore {
   Buffer<T> mass;     ///< empty where all particles of each set have the same [kg]
   Buffer<T> surface;  ///< ParticleSet::surface; empty without cut places
   Buffer<std::uint32_t> id;
+  Buffer<std::uint32_t> number;  ///< as CellTable::Places::number; empty where all of each set are here
 
   /// visit(buffer) for each.
   template <class Visit>
@@ -59,6 +60,7 @@ struct ParticleStore {
     visit(mass);
     visit(surface);
     visit(id);
+    visit(number);
   }
 };
 
@@ -172,7 +174,7 @@ class Solver {
   template <int Dim>
   void account(double dt);
   CellTable::Places places() const {
-    return {{store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.id.data()};
+    return {{store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.id.data(), store_.number.data()};
   }
 
   // Sums are constexpr, so that kernels may call them, too.

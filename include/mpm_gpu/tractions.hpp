@@ -36,7 +36,7 @@ class Tractions {
   mpm::GridLayout layout_;
   const Passes<T>& passes_;
   std::vector<double> areas_;   ///< area of the face of each particle, by term [m^2]
-  std::vector<double> counts_;  ///< number of particles, by term
+  std::vector<double> counts_;  ///< number of particles awake, by term
   std::vector<std::string> titles_;
   std::vector<double> now_, next_;  ///< force on the face of a particle, [term][axis] [N]
   mpm::ImpulseAccount given_;

@@ -84,7 +84,8 @@ void CellTable::find_keys(Executor& run, const Places& places, const std::vector
         block = block * static_cast<std::uint64_t>(grid.blocks_along[k]) + node / kEdge;
         local = local * kEdge + node % kEdge;
       }
-      const std::uint32_t by_id = first + (places.id[p] - first_id);
+      const std::uint32_t id = places.id[p],
+                          by_id = places.number != nullptr ? places.number[id] : first + (id - first_id);
       key[by_id] = (before + block) * nodes + local;
       order[by_id] = static_cast<std::uint32_t>(p);
     }

@@ -79,7 +79,7 @@ class RunDevice final : public mpm::Device {
     return sums;
   }
   void fetch(std::vector<ParticleSet>& sets, Numbers which) override {
-    told([&] { run().write_to(sets, which == Numbers::all); });
+    told([&] { run().write_to(sets, which); });
   }
   void take(const std::vector<ParticleSet>& sets) override {
     told([&] { begin(sets); });

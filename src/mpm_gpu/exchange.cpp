@@ -134,7 +134,7 @@ std::vector<SetView> views_of(const std::vector<ParticleSet>& sets) {
   for (const ParticleSet& set : sets) {
     SetView view{};
     view.first = first;
-    view.count = static_cast<std::uint32_t>(set.size());
+    view.count = static_cast<std::uint32_t>(set.awake());
     view.mass = set.mass;
     view.averages = strain_before(set) != nullptr;
     view.first_id = set.first_id;
@@ -166,13 +166,25 @@ std::size_t bytes_of_particle(const ParticleSet& set) {
              sizeof(T);
 }
 
+/// Number of each id among those that are awake, in the order of ids.
+std::vector<std::uint32_t> numbers_of_awake(const std::vector<ParticleSet>& sets) {
+  std::vector<std::uint32_t> numbers;
+  for (const ParticleSet& set : sets) {
+    numbers.resize(std::max<std::size_t>(numbers.size(), set.first_id + static_cast<std::size_t>(set.size())));
+    for (int p = 0; p < set.awake(); ++p) numbers[set.id[p]] = 1;
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t& number : numbers) count += std::exchange(number, count);
+  return numbers;
+}
+
 template <class T>
 ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
   ParticleStore<T> store;
   long count = 0, first = 0;
   std::size_t bytes = 0;
   for (const ParticleSet& set : sets) {
-    count += set.size();
+    count += set.awake();
     bytes = std::max(bytes, bytes_of_particle<T>(set));
   }
   const auto has = [&](std::vector<mpm::ParticleScalar> ParticleSet::*scalar) {
@@ -181,12 +193,19 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
   const bool any_mass = has(&ParticleSet::masses), any_surface = has(&ParticleSet::surface);
   Executor::require(count, bytes);
   store.id.fit(count);
+  const bool any_asleep = std::any_of(sets.begin(), sets.end(), [](const ParticleSet& set) { return set.asleep > 0; });
+  if (any_asleep) {
+    const std::vector<std::uint32_t> numbers = numbers_of_awake(sets);
+    store.number.fit(static_cast<long>(numbers.size()));
+    store.number.upload(numbers);
+  }
   for (const ParticleSet& set : sets) {
+    const int awake = set.awake();
     const auto copy = [&](const auto& from, auto& to) {
       for (std::size_t c = 0; c < from.size(); ++c) {
         using Number = std::decay_t<decltype(to[c].get(0))>;
-        std::vector<Number> numbers(set.size());
-        for (int p = 0; p < set.size(); ++p) numbers[p] = static_cast<Number>(from[c][p]);
+        std::vector<Number> numbers(awake);
+        for (int p = 0; p < awake; ++p) numbers[p] = static_cast<Number>(from[c][p]);
         to[c].fit(count);
         to[c].upload(numbers, first);
       }
@@ -198,21 +217,21 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     copy(set.history, store.history);
     if (const auto* before = strain_before(set)) {
       store.strain_before.fit(count);
-      store.strain_before.upload(std::vector<double>(before->begin(), before->end()), first);
+      store.strain_before.upload(before->data(), awake, first);
     }
     copy(set.affine, store.affine);
     // A number of each particle of all sets, where one has them.
     const auto complete = [&](const auto& from, bool any, double same, Buffer<T>& to) {
-      std::vector<T> numbers(set.size(), static_cast<T>(same));
-      for (int p = 0; p < set.size() && !from.empty(); ++p) numbers[p] = static_cast<T>(from[0][p]);
+      std::vector<T> numbers(awake, static_cast<T>(same));
+      for (int p = 0; p < awake && !from.empty(); ++p) numbers[p] = static_cast<T>(from[0][p]);
       if (!any) return;
       to.fit(count);
       to.upload(numbers, first);
     };
     complete(set.masses, any_mass, set.mass, store.mass);
     complete(set.surface, any_surface, 1.0, store.surface);
-    store.id.upload(std::vector<std::uint32_t>(set.id.begin(), set.id.end()), first);
-    first += set.size();
+    store.id.upload(set.id.data(), awake, first);
+    first += awake;
   }
   return store;
 }
@@ -248,15 +267,15 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
 }
 
 template <class T>
-void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, bool all) {
+void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, mpm::Device::Numbers which) {
   const ParticleStore<T>& store = solver_.particles();
   const std::vector<std::uint32_t> id = store.id.download();
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ParticleSet& set = sets[s];
     const long first = solver_.sets()[s].first;
-    const auto count = static_cast<std::size_t>(set.size());
-    std::vector<long> there(count);  // places in the store, by id from the first
-    for (long i = first; i < first + set.size(); ++i) there[id[i] - set.first_id] = i;
+    const auto count = static_cast<std::size_t>(set.awake());
+    std::vector<long> there(static_cast<std::size_t>(set.size()));  // places in the store, by id from the first
+    for (long i = first; i < first + set.awake(); ++i) there[id[i] - set.first_id] = i;
     std::vector<long> from_where(count);
     for (std::size_t p = 0; p < count; ++p) from_where[p] = there[set.id[p] - set.first_id];
     const auto copy = [&](const auto& from, auto& to) {
@@ -265,6 +284,8 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, bool all) {
         for (std::size_t p = 0; p < count; ++p) to[c].set(p, numbers[from_where[p]]);
       }
     };
+    copy(store.v, set.v);
+    if (which == mpm::Device::Numbers::velocity) continue;
     for (std::size_t k = 0; k < set.x.size(); ++k) {
       const std::vector<double> places = store.x[k].download();
       for (std::size_t p = 0; p < count; ++p) set.x[k][p] = places[from_where[p]];
@@ -274,8 +295,7 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, bool all) {
       const double length = layout_.last_node(static_cast<int>(k)) * layout_.cell(static_cast<int>(k));
       for (std::size_t p = 0; p < count && !turns.empty(); ++p) set.start_x[k][p] += turns[from_where[p]] * length;
     }
-    copy(store.v, set.v);
-    if (!all) continue;
+    if (which == mpm::Device::Numbers::motion) continue;
     copy(store.f, set.f);
     copy(store.tau, set.tau);
     copy(store.history, set.history);
@@ -285,7 +305,7 @@ void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, bool all) {
     }
     copy(store.affine, set.affine);
   }
-  solver_.clear_turns();
+  if (which != mpm::Device::Numbers::velocity) solver_.clear_turns();
 }
 
 template class DeviceRun<double>;

@@ -6,19 +6,22 @@
 namespace mpm_gpu {
 namespace {
 
+static_assert(kFreeComponent == mpm::SoilGrid::kFree && kAtRestComponent == mpm::SoilGrid::kAtRest);
+
 constexpr double kMoved = 2.0;  ///< cells beyond the nodes of a block within which its particles are at a step's end
 
 }  // namespace
 
 template <class T>
 ImplicitSoil<T>::ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, double across,
-                              Solver<T>& solver)
+                              mpm::HostRest* rest, Solver<T>& solver)
     : solve_(solve),
+      rest_(rest),
       solver_(solver),
       layout_(solve.grid().layout),
       across_(across),
       passes_(soil_passes(layout_.dim(), T())),
-      copies_(layout_.dim()) {
+      copies_(layout_.dim(), false) {
   const mpm::SoilBodies& bodies = solve.bodies();
   for (const mpm::ImplicitSoil& soil : bodies.soils) constants_.push_back(soil.constants());
   sets_of_.assign(bodies.soils.size(), 0);
@@ -65,7 +68,7 @@ void ImplicitSoil<T>::make_room(Executor&, long nodes) {
   change_room_.fit(blocks);
   of_held_.fit(Executor::groups_of(cells));
   of_deeds_.fit(Executor::groups_of(nodes));
-  sorts_ = -1;  // what was there may be lost
+  taken_ = -1;  // what was there may be lost
 }
 
 template <class T>
@@ -74,7 +77,6 @@ void ImplicitSoil<T>::begin_step(Executor& run, StepView<T>& step, double start,
   start_ = start;
   step.settings.solved = true;
   step_ = step;
-  if (sorts != sorts_) take_blocks();
   sorts_ = sorts;
 }
 
@@ -83,6 +85,7 @@ void ImplicitSoil<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step
   if (hook != mpm::Hook::momentum_updated) return;
   run_ = &run;
   step_ = step;
+  if (sorts_ != taken_) take_blocks();
   solve_.solve_step(start_, step.settings.dt);
 }
 
@@ -110,8 +113,30 @@ void ImplicitSoil<T>::take_blocks() {
     for (std::int32_t n = 0; n < per_block; ++n) map_.push_back(blocks_.back() * per_block + n);
   }
   map_there_.upload(map_);
+  take_rest();
+  taken_ = sorts_;
   none_ = static_cast<std::int32_t>(step_.nodes.nodes);
   fresh_ = true;
+}
+
+// Sleep has a grid of its own, of the blocks that the host has sorted particles into.
+template <class T>
+void ImplicitSoil<T>::take_rest() {
+  mpm::Grid& grid = solve_.grid();
+  grid.at_rest.clear();
+  at_rest_.clear();
+  if (rest_ == nullptr) return;
+  const mpm::Grid& of = *rest_->fields().front();
+  for (const mpm::NodeRef& node : of.at_rest) {
+    const int block = grid.blocks.find(of.blocks.key(node.block));
+    if (block < 0) continue;
+    grid.at_rest.push_back({block, node.node});
+    at_rest_.push_back(map_[static_cast<std::size_t>(block * layout_.nodes_per_block() + node.node)]);
+  }
+  forces_.resize(3 * at_rest_.size());
+  at_rest_there_.grow(static_cast<long>(at_rest_.size()));
+  at_rest_there_.upload(at_rest_);
+  force_room_.grow(static_cast<long>(forces_.size()));
 }
 
 template <class T>
@@ -331,6 +356,15 @@ void ImplicitSoil<T>::end_sweeps() {
 template <class T>
 void ImplicitSoil<T>::add_to_held(mpm::HeldImpulses& held) {
   held.add(passes_.held(*run_, step_, view(), of_held_).of);
+  const long count = static_cast<long>(at_rest_.size());
+  if (count == 0) return;
+  passes_.held_at_rest(*run_, step_, view(), at_rest_there_.data(), count, force_room_.data());
+  force_room_.download(forces_.data(), 3 * count);
+  const std::vector<mpm::NodeRef>& nodes = solve_.grid().at_rest;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const int node = nodes[i].block * layout_.nodes_per_block() + nodes[i].node;
+    for (int a = 0; a < 3; ++a) held.add(node, a, mpm::SoilGrid::kAtRest, forces_[3 * i + static_cast<std::size_t>(a)]);
+  }
 }
 
 template <class T>
@@ -348,6 +382,23 @@ void ImplicitSoil<T>::finish(double, mpm::SoilDeeds& deeds) {
   }
   deeds.taken += sums.taken;
   passes_.store(*run_, step_, soil);
+  store_at_rest();
+}
+
+// With what cells, and rows of tools, have given them.
+template <class T>
+void ImplicitSoil<T>::store_at_rest() {
+  const long count = static_cast<long>(at_rest_.size());
+  if (count == 0) return;
+  const mpm::Grid& grid = solve_.grid();
+  std::fill(forces_.begin(), forces_.end(), 0.0);
+  for (std::size_t i = 0; i < grid.at_rest.size(); ++i) {
+    const mpm::NodeRef& node = grid.at_rest[i];
+    for (int k = 0; k < layout_.dim(); ++k)
+      forces_[3 * i + static_cast<std::size_t>(layout_.axis(k))] = grid.force.at(node.block, k, node.node);
+  }
+  force_room_.upload(forces_);
+  passes_.store_at_rest(*run_, step_, view(), at_rest_there_.data(), count, force_room_.data());
 }
 
 template <class T>
@@ -392,8 +443,9 @@ template <class T>
 std::size_t ImplicitSoil<T>::bytes() const {
   std::size_t sum = node_.bytes() + before_.bytes() + node_room_.bytes() + cell_.bytes() + mask_.bytes() +
                     motion_.bytes() + holder_.bytes() + marked_there_.bytes() + order_.bytes() + map_there_.bytes() +
-                    free_there_.bytes() + ranges_there_.bytes() + row_.bytes() + wall_.bytes() + impulse_room_.bytes() +
-                    change_.bytes() + change_room_.bytes() + of_held_.bytes() + of_deeds_.bytes();
+                    free_there_.bytes() + at_rest_there_.bytes() + force_room_.bytes() + ranges_there_.bytes() +
+                    row_.bytes() + wall_.bytes() + impulse_room_.bytes() + change_.bytes() + change_room_.bytes() +
+                    of_held_.bytes() + of_deeds_.bytes();
   for (const Buffer<T>& one : number_) sum += one.bytes();
   return sum;
 }

@@ -31,12 +31,12 @@ double value_of(const Function& function, int axis, double time, const Vec3& sta
   }
 }
 
-/// visit(set, particle) for all that a load acts on.
+/// visit(set, particle) for all awake that a load acts on.
 template <class Visit>
 void each_loaded(const mpm::ParticleLoadTerm& term, const std::vector<ParticleSet>& sets, Visit&& visit) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     if (term.set && *term.set != static_cast<int>(s)) continue;
-    for (int p = 0; p < sets[s].size(); ++p) {
+    for (int p = 0; p < sets[s].awake(); ++p) {
       const std::uint32_t number = sets[s].id[p] - sets[s].first_id;
       if (term.chosen.empty() || term.chosen[number] != 0) visit(sets[s], p);
     }

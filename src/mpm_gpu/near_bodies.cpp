@@ -16,7 +16,7 @@ NearBodies<T>::NearBodies(mpm::HostContact& contact, const GridView& grid)
       layout_(contact.fields().front()->layout),
       grid_view_(grid),
       rubs_(std::find(grid.faces, grid.faces + 2 * layout_.dim(), Face::frictional) != grid.faces + 2 * layout_.dim()),
-      copies_(layout_.dim()) {
+      copies_(layout_.dim(), true) {
   // A block's particles are within half a cell of its nodes, and their nodes as far again as shape functions reach.
   const double half = 0.5 * (kEdge - 1) + 0.5 + kReachOfShapes;
   double squared = 0.0;

@@ -150,12 +150,13 @@ template <int Dim>
 void NearCopies<T>::take_for_strain(Executor& run, const StepView<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
+  const bool again = walls_again_;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
-    for (int c = 0; c < Dim; ++c) {
+    for (int c = 0; again && c < Dim; ++c) {
       const long to = c * nodes.nodes + node;
       nodes.moved[to] = v[c] - nodes.velocity[to];
     }
-    hold_again_for_strain<Dim>(grid, nodes, node, number, v);
+    if (again) hold_again_for_strain<Dim>(grid, nodes, node, number, v);
     for (int c = 0; c < Dim; ++c) nodes.velocity[c * nodes.nodes + node] = v[c];
   });
 }
@@ -167,10 +168,11 @@ void NearCopies<T>::take_at_end(Executor& run, const StepView<T>& step) {
   const GridView grid = step.grid;
   const double *acceleration = other_room_.data(), dt = step.settings.dt;
   const long stride = per_block_;
+  const bool again = walls_again_;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long at) {
     double given[Dim];
     for (int c = 0; c < Dim; ++c) given[c] = v[c];
-    hold_again_at_end<Dim>(grid, nodes, node, number, nodes.mass[node], v);
+    if (again) hold_again_at_end<Dim>(grid, nodes, node, number, nodes.mass[node], v);
     for (int c = 0; c < Dim; ++c) {
       const long to = c * nodes.nodes + node;
       nodes.velocity[to] = v[c];
@@ -184,8 +186,9 @@ template <int Dim>
 void NearCopies<T>::take_first_increment(Executor& run, const StepView<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
+  const bool again = walls_again_;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
-    hold_increment_again<Dim>(grid, nodes, node, number, 0.0, v);
+    if (again) hold_increment_again<Dim>(grid, nodes, node, number, 0.0, v);
     for (int c = 0; c < Dim; ++c) nodes.increment[c * nodes.nodes + node] = v[c];
   });
 }
@@ -197,8 +200,9 @@ void NearCopies<T>::take_increment(Executor& run, const StepView<T>& step) {
   const GridView grid = step.grid;
   const bool mixed = nodes.work != nullptr;  // particles take this over as they gain an acceleration
   const double dt = step.settings.dt;
+  const bool again = walls_again_;
   each_returned<Dim>(run, step, [=](long node, const int* number, double(&v)[Dim], long) {
-    hold_increment_again<Dim>(grid, nodes, node, number, nodes.mass[node], v);
+    if (again) hold_increment_again<Dim>(grid, nodes, node, number, nodes.mass[node], v);
     for (int c = 0; c < Dim; ++c) {
       const long to = c * nodes.nodes + node;
       nodes.velocity[to] += v[c] - nodes.increment[to];

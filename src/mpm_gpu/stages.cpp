@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "mpm/kernel/kernels.hpp"
 #include "mpm/modules/shipped_modules.hpp"
 #include "mpm_gpu/damping.hpp"
 #include "mpm_gpu/error.hpp"
@@ -12,6 +13,7 @@
 #include "mpm_gpu/loads.hpp"
 #include "mpm_gpu/mixture.hpp"
 #include "mpm_gpu/near_bodies.hpp"
+#include "mpm_gpu/near_rest.hpp"
 #include "mpm_gpu/prescribed.hpp"
 
 namespace mpm_gpu {
@@ -22,6 +24,9 @@ bool is_mixture(const mpm::MethodDefinition& method) {
   const bool flip = method.transfer.kind == mpm::TransferKind::flip;
   return flip && (method.transfer.flip != 1.0 || !method.damping.pic.is_zero());
 }
+
+/// Farthest that a particle may be beyond the nodes of its block, so that a tile holds its nodes [cells].
+double reach_of(mpm::ShapeKind shape) { return (shape == mpm::ShapeKind::bspline3 ? 1.0 : 1.5) - mpm_kernel::kSlack; }
 
 }  // namespace
 
@@ -36,10 +41,15 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
   const mpm::GridLayout layout(dimensions(d.geometry), d.grid.cell, d.grid.min, d.grid.max);
   mpm::Mechanics* mechanics = modules == nullptr ? nullptr : &modules->mechanics;
   const mpm::MethodDefinition& method = d.method;
+  std::unique_ptr<NearRest<T>> rest;
+  if (modules != nullptr && modules->rest != nullptr) {
+    rest = std::make_unique<NearRest<T>>(*modules->rest, solver.grid(), reach_of(method.shape));
+    solver.add(std::make_unique<UnrestAtBorder<T>>(*rest));
+  }
   if (method.update == mpm::UpdateScheme::implicit) {
     auto* solve = modules == nullptr ? nullptr : modules->modules.template first<mpm::ImplicitSolve<T>>();
     if (solve == nullptr) throw GpuError("gpu: implicit steps are those of a simulation's modules");
-    solver.add(std::make_unique<ImplicitSoil<T>>(*solve, sets, d.across(), solver));
+    solver.add(std::make_unique<ImplicitSoil<T>>(*solve, sets, d.across(), modules->rest, solver));
   } else if (modules != nullptr && modules->contact != nullptr) {
     solver.let_walls_act_again();
     solver.add(std::make_unique<NearBodies<T>>(*modules->contact, solver.grid()));
@@ -63,6 +73,7 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
     for (const mpm::ParticleSet& set : sets) particles += set.size();
     solver.add(std::make_unique<PutsBack<T>>(leaving, d.grid.leave_limit, particles, layout, solver.passes()));
   }
+  if (rest) solver.add(std::move(rest));
   std::optional<Tractions<T>> tractions;
   if (!d.tractions.empty()) {
     auto* stage = modules == nullptr ? nullptr : modules->modules.template first<mpm::FaceTractions>();

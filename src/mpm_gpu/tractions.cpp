@@ -20,16 +20,24 @@ Tractions<T>::Tractions(mpm::FaceTractions& stage, const std::vector<mpm::Partic
     ids = std::max(ids, static_cast<std::size_t>(set.first_id) + static_cast<std::size_t>(set.size()));
   }
   std::vector<std::uint32_t> acts(ids);
+  std::vector<std::uint8_t> awake(ids);
+  for (const mpm::ParticleSet& set : sets) {
+    for (int p = 0; p < set.awake(); ++p) awake[set.id[p]] = 1;
+  }
   std::vector<int> faces;
   for (const mpm::TractionTerm& term : terms) {
     const mpm::ParticleSet& set = sets[static_cast<std::size_t>(term.set)];
     double area = across;
     for (int k = 0; k < layout.dim(); ++k) area *= k == term.face.axis ? 1.0 : 2.0 * set.half[k] * layout.cell(k);
     const std::uint32_t bit = 1U << areas_.size();
-    for (const std::uint32_t particle : term.particles) acts[set.first_id + particle] |= bit;
+    double count = 0.0;
+    for (const std::uint32_t particle : term.particles) {
+      acts[set.first_id + particle] |= bit;
+      count += awake[set.first_id + particle];
+    }
     faces.push_back(2 * term.face.axis + (term.face.upper ? 1 : 0));
     areas_.push_back(area);
-    counts_.push_back(static_cast<double>(term.particles.size()));
+    counts_.push_back(count);
     titles_.push_back(fmt::format("traction on '{}'", set.name));
   }
   acts_.fit(static_cast<long>(acts.size()));

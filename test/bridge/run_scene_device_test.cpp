@@ -90,10 +90,10 @@ TEST_F(RunSceneDevice, ARecordingIsComparedWithARunBySameProcessorAlone) {
 
 TEST_F(RunSceneDevice, AutoSaysWhyTheProcessorTakesTheSteps) {
   ask("auto", loops());
-  options_.set = {"sleep={}"};
+  options_.set = {"method.average_dilatation=true"};
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   EXPECT_NE(err_.str().find("device auto: this processor takes the steps, since steps on a graphics processor and "
-                            "sleep do not go together: "),
+                            "averaged dilatation do not go together: "),
             std::string::npos)
       << err_.str();
   EXPECT_EQ(summary()["device"], "cpu");
@@ -108,10 +108,10 @@ TEST_F(RunSceneDevice, BadInputEndsWithTwoAndOneLine) {
   ask("gpu", mpm::test::too_small());
   expect_one_line("400 particles need more memory than is free: about 100 particles would fit");
   ask("gpu", loops());
-  options_.set = {"sleep={}"};
+  options_.set = {"method.average_dilatation=true"};
   expect_one_line(
-      "--device: steps on a graphics processor and sleep do not go together: there are no kernels for that yet; run it "
-      "with --device cpu");
+      "--device: steps on a graphics processor and averaged dilatation do not go together: there are no kernels for "
+      "that yet; run it with --device cpu");
 }
 
 TEST_F(RunSceneDevice, ABuildWithoutCardsSaysWhatToDo) {

@@ -16,10 +16,9 @@ using namespace gpu_runs;
 constexpr int kSteps = 3;
 constexpr std::uint64_t kMostParticles = 70'000;
 
-// Explicit steps of material that is awake, as a device takes them; contact that does not depend on the order of
-// points.
-const std::vector<std::string> kExplicit = {"method.update=usavg", "sleep=off"};
-const std::vector<std::string> kAtNodes = {"method.update=usavg", "sleep=off", "contact.method=nodes"};
+// Explicit steps, as a device takes them; contact that does not depend on the order of points.
+const std::vector<std::string> kExplicit = {"method.update=usavg"};
+const std::vector<std::string> kAtNodes = {"method.update=usavg", "contact.method=nodes"};
 
 /// The scene, with sync periods of a few steps; without particles if a device refuses it.
 mpm::SimulationDefinition part_of(const std::string& name) {

@@ -79,9 +79,9 @@ TEST(DeviceChoice, OneThatIsThereTakesASceneThatRunsThere) {
 
 TEST(DeviceChoice, ASceneThatDoesNotRunThereIsRefusedOrTakenByThisOne) {
   SimulationDefinition d = block();
-  d.sleep = SleepDefinition{1.0, 1.0, 1.0};
+  d.method.average_dilatation = true;
   const std::string why =
-      "steps on a graphics processor and sleep do not go together: there are no kernels for that yet";
+      "steps on a graphics processor and averaged dilatation do not go together: there are no kernels for that yet";
   EXPECT_EQ(error_of<DefinitionError>([&] {
               choose_device(asks("gpu", {test::kept(), {}}), d, 1);
             }),

@@ -92,13 +92,14 @@ class VelocityConditions final : public FieldStage, public RestPartner {
   /// True where a condition moves a node of the block's tile now or until sleep asks again, and for a region that moves
   /// and is as near as a block. A velocity of zero is a wall, under which material may sleep. @throws ConditionError
   bool stirs(const RestingBlock& block, const RestTimes& times) override;
-  bool holds(int field, NodeRef node) const override;
+  bool holds(int field, const Grid& grid, NodeRef node) const override;
 
   // Functions for a device that takes the steps (step/device.hpp), has the blocks in use and acts on their nodes.
 
   /// Regions take the velocities of a step of `dt` from `start` on [s]. @throws ConditionError
   void begin_step(double start, double dt);
-  /// Finds the nodes that are held in these blocks; they refer to them by place in the list. @throws ConditionError
+  /// Finds the nodes that are held in these blocks, which are in ascending order; they refer to them by place in the
+  /// list. @throws ConditionError
   void find_nodes(const std::vector<std::array<int, 3>>& blocks);
   /// Finds the velocities at which they are held as the step begins and ends. @throws ConditionError
   void find_velocities(double start, double dt);
@@ -156,10 +157,11 @@ class VelocityConditions final : public FieldStage, public RestPartner {
   std::vector<Found> found_;
   std::vector<Held> held_;
   std::vector<Part> parts_;
-  bool moving_ = false;           ///< any region does
-  bool ended_ = false;            ///< momentum of this step has been updated
-  std::uint64_t generation_ = 0;  ///< generation of the block table that held_ was made from
-  double work_ = 0.0;             ///< on the material since the start [J]
+  bool moving_ = false;                     ///< any region does
+  bool ended_ = false;                      ///< momentum of this step has been updated
+  std::uint64_t generation_ = 0;            ///< generation of the block table that held_ was made from
+  std::vector<std::array<int, 3>> listed_;  ///< blocks that it was made from in place of a table
+  double work_ = 0.0;                       ///< on the material since the start [J]
 };
 
 }  // namespace mpm

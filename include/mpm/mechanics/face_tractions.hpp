@@ -60,6 +60,8 @@ class FaceTractions : public Stage, public RestPartner {
   void forces_gathered(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
   bool stirs(const RestingBlock& block, const RestTimes& times) override;
+  bool has_forces() const override { return true; }
+  void find_forces(const StepContext& context) override { find_loads(context); }
   /// Those of the step that has ended, in which it was at rest.
   void add_forces(const RestingBlock& block, BlockForces& forces) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
@@ -88,6 +90,8 @@ class FaceTractions : public Stage, public RestPartner {
   };
 
   void look_for_particles();
+  /// The loads at the nodes in a step. Returns the impulse that they are.
+  Vec3 find_loads(const StepContext& context);
   /// By world axis [Pa].
   /// `half`: half of the step [s], in which the particle moves on until `time` [s].
   Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, double time, double half) const;

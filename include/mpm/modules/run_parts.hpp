@@ -73,9 +73,12 @@ struct RunParts {
   /// Particles near rigid bodies where a device takes the steps (step/device.hpp); else null, and all sets are looked
   /// through.
   const std::vector<ParticleSet>* near_bodies = nullptr;
+  Fields* fields_near_bodies = nullptr;          ///< the same of nodes
   std::vector<RestPartner*> rest_partners = {};  ///< modules that act on material at rest, which sleep asks
 
   const GridLayout& layout() const { return fields.front()->layout; }
+  /// Fields in which rigid bodies meet material.
+  Fields& contact_fields() const { return fields_near_bodies != nullptr ? *fields_near_bodies : fields; }
   VolumeSurvey& volumes();
   /// Makes an object that transfers a module's numbers between particles and nodes, by this shape function and in the
   /// run's precision.

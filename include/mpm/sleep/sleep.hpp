@@ -107,6 +107,18 @@ class Sleep final : public Stage {
   void follow_moves() { asleep_.follow_moves(); }
   const SleepingBlocks& asleep() const { return asleep_; }
 
+  // For a device that takes the steps (step/device.hpp).
+
+  /// True if the velocities of particles are looked at in the next step.
+  bool looks_next() const { return !begun_ || steps_ + 1 >= pace_.between_looks; }
+  /// True if all nodes are looked at in the step, and not only those that are held.
+  bool needs_all_nodes() const { return definition_.damping > 0.0 || (!begun_ && definition_.from_start); }
+  /// True if some may fall asleep, and partners are to find the forces on them.
+  bool needs_forces() const;
+  void find_forces(const StepContext& context) const;
+  /// True if particles may fall asleep or wake when they are sorted.
+  bool has_work_for_sort() const { return !sleepers_.empty() || !to_wake_.empty(); }
+
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override;
   void numbers(std::vector<NamedNumber>& list) const override;

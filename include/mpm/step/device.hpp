@@ -4,9 +4,10 @@
 // what depends on time (rates of damping, loads, prescribed velocities) and books with them what it does in their
 // place, so that accounts and checkpoints are those of a run on the processor.
 //
-// Contact with rigid bodies alone acts on the host, whose bodies, robots and solution for all points of contact it
-// needs, in every step: the device copies the nodes near bodies, and the particles around them, into the host's own
-// grid, and takes the nodes' velocities back.
+// Two of them act on the host in every step. Contact with rigid bodies needs the host's bodies, robots and solution for
+// all points of contact: the device copies the nodes near bodies, and the particles around them, into a grid of the
+// host, and takes the nodes' velocities back. Sleep acts on the nodes at the border of what is asleep in the same way.
+// Particles asleep are on the host alone; where some fall asleep or wake, all go there and those awake come back.
 #pragma once
 
 #include <memory>
@@ -37,11 +38,28 @@ class HostContact {
   virtual void act(Hook hook) = 0;
 };
 
+/// Sleep of blocks, on the host, in the steps of a device.
+class HostRest {
+ public:
+  virtual ~HostRest() = default;
+  /// Fields as particles have been sorted last on the host; Grid::at_rest names the nodes that are held.
+  virtual Fields& fields() = 0;
+  /// The run's sets, whose order and blocks are those of that sort.
+  virtual const std::vector<ParticleSet>& sets() = 0;
+  /// True if it looks at all nodes in this step, and not at those that are held alone; known once it has acted.
+  virtual bool needs_all() const = 0;
+  /// Acts on these fields as the stage does at a hook; at `forces_gathered` Grid::force is the sum of all forces.
+  virtual void act(Hook hook) = 0;
+  /// A particle has left the reach of the block that it was sorted into: the host has to sort after this step.
+  virtual void particle_left() = 0;
+};
+
 /// Parts of a run that a device asks and tells, which outlive it.
 struct RunModules {
   Mechanics& mechanics;
   const Modules& modules;
-  HostContact* contact;  ///< null in a scene without rigid bodies
+  HostContact* contact = nullptr;  ///< null in a scene without rigid bodies
+  HostRest* rest = nullptr;        ///< null in a scene that does not sleep
 };
 
 class Device {
@@ -78,7 +96,7 @@ class Device {
   /// Books with the modules what was done in the place of loads, damping, PIC and prescribed velocities since the last
   /// call; other modules ask for what they are to count (Module::count()).
   virtual void tell_modules() = 0;
-  /// Sums over the particles of a set.
+  /// Sums over the particles of a set that are awake.
   struct Sums {
     double kinetic = 0.0, elastic = 0.0, plastic = 0.0;  ///< [J]
     double carried = 0.0;                                ///< sum of m |v| [N s]
@@ -87,11 +105,12 @@ class Device {
     Vec3 place = Vec3::Zero();                           ///< sum of m x [kg m]
   };
   virtual Sums sums(int set) = 0;
-  /// Numbers of the particles: none, places and velocities, or all.
-  enum class Numbers { none, motion, all };
-  /// Writes these of the particles as they are now to the host's sets, each to where its id lies.
+  /// Numbers of the particles: none, velocities, places and velocities, or all.
+  enum class Numbers { none, velocity, motion, all };
+  /// Writes these of the particles as they are now to the host's sets, each to where its id lies. It has those awake
+  /// (ParticleSet::asleep), which have to be the same as when it took them.
   virtual void fetch(std::vector<ParticleSet>& sets, Numbers which) = 0;
-  /// Goes on from these particles, in place of its own.
+  /// Goes on from those of these particles that are awake, in place of its own.
   virtual void take(const std::vector<ParticleSet>& sets) = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "mpm/grid/nodal_fields.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/block_probe.hpp"
+#include "mpm/step/step_context.hpp"
 
 namespace mpm {
 
@@ -67,8 +68,13 @@ class RestPartner {
   virtual bool moves_with_sorts() const { return false; }
   /// Adds to `forces` those that a block which is to fall asleep has from this on the nodes of its tile.
   virtual void add_forces(const RestingBlock& /*block*/, BlockForces& /*forces*/) {}
-  /// True if this holds a node along some direction, with a force that is not known.
-  virtual bool holds(int /*field*/, NodeRef /*node*/) const { return false; }
+  /// True if this has forces to add.
+  virtual bool has_forces() const { return false; }
+  /// Finds the forces of this step, which a device takes (step/device.hpp), from particles and masses of nodes as they
+  /// are at its start. Books nothing.
+  virtual void find_forces(const StepContext&) {}
+  /// True if this holds a node of a field along some direction, with a force that is not known.
+  virtual bool holds(int /*field*/, const Grid& /*grid*/, NodeRef /*node*/) const { return false; }
   /// A block falls asleep, whose particles are sorted.
   virtual void falls_asleep(const RestingBlock& /*block*/) {}
   /// A block wakes, or is taken away; its particles lie where they have lain asleep.

@@ -100,6 +100,7 @@ void VelocityConditions::find_nodes(const Grid& grid) {
 
 void VelocityConditions::find_nodes(const std::vector<std::array<int, 3>>& blocks) {
   generation_ = 0;  // those of no grid of the host
+  listed_ = blocks;
   find_in(static_cast<int>(blocks.size()), [&](int b) -> const std::array<int, 3>& { return blocks[b]; });
 }
 
@@ -183,8 +184,14 @@ bool VelocityConditions::moves_tile(const Condition& condition, const RestingBlo
   return any;
 }
 
-bool VelocityConditions::holds(int field, NodeRef node) const {
+bool VelocityConditions::holds(int field, const Grid& grid, NodeRef node) const {
   if (field != field_) return false;
+  if (generation_ != grid.blocks.generation()) {
+    const std::array<int, 3>& block = grid.blocks.block(node.block);
+    const auto found = std::lower_bound(listed_.begin(), listed_.end(), block);
+    if (found == listed_.end() || *found != block) return false;
+    node.block = static_cast<int>(found - listed_.begin());
+  }
   const auto before = [](const Held& held, const NodeRef& ref) {
     return held.ref.block != ref.block ? held.ref.block < ref.block : held.ref.node < ref.node;
   };

@@ -93,7 +93,7 @@ void FaceTractions::spread(int set, int p, const PlacedDomain::Vector& at, const
   }
 }
 
-void FaceTractions::forces_gathered(StepContext& context) {
+Vec3 FaceTractions::find_loads(const StepContext& context) {
   const std::uint64_t generation =
       context.fields.front()->blocks.generation();  // generation of all fields: they are rebuilt together
   if (generation_ != generation || any_chooses_) {
@@ -115,6 +115,11 @@ void FaceTractions::forces_gathered(StepContext& context) {
       }
     }
   }
+  return impulse;
+}
+
+void FaceTractions::forces_gathered(StepContext& context) {
+  const Vec3 impulse = find_loads(context);
   if (halo_ == nullptr) {
     for (const NodalLoad& load : loads_) {
       Grid& grid = *fields_[load.field];

@@ -53,7 +53,8 @@ class ParticleLoads final : public ParticleLoadStage {
   Ranks ranks(Hook) const override { return {Rank::load}; }
 
   void forces_gathered(StepContext& context) override {
-    evaluate(context);
+    const ByKind impulse = evaluate(context);
+    for (int kind = 0; kind < kKinds; ++kind) accounts_[kind].add(impulse[kind]);
     for (std::size_t f = 0; f < fields_.size(); ++f) add_to(static_cast<int>(f));
   }
 
@@ -86,6 +87,8 @@ class ParticleLoads final : public ParticleLoadStage {
     return change > times.part * scale;
   }
 
+  bool has_forces() const override { return true; }
+  void find_forces(const StepContext& context) override { evaluate(context); }
   // Those of the step that has ended, in which it was at rest.
   void add_forces(const RestingBlock& block, BlockForces& forces) override {
     for (int spread = 0; spread < kSpreads; ++spread) {
@@ -165,8 +168,8 @@ class ParticleLoads final : public ParticleLoadStage {
     return force;
   }
 
-  // Acceleration of every particle awake, and the impulse that it is.
-  void evaluate(const StepContext& context) {
+  // Acceleration of every particle awake. Returns the impulse that it is.
+  ByKind evaluate(const StepContext& context) {
     ByKind impulse = nothing();
     fault_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -186,7 +189,7 @@ class ParticleLoads final : public ParticleLoadStage {
       }
     }
     fault_.check<LoadError>();
-    for (int kind = 0; kind < kKinds; ++kind) accounts_[kind].add(impulse[kind]);
+    return impulse;
   }
 
   // A set's particles may have come from other ranks and gone there.

@@ -122,7 +122,7 @@ void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, s
                                 parts.ranks,         body_contact_settings(definition),
                                 parts.choice};
   const std::vector<ParticleSet>& sets = parts.near_bodies != nullptr ? *parts.near_bodies : parts.sets;
-  auto contact = std::make_unique<PointContact>(bodies, sets, parts.fields, std::move(laws), settings);
+  auto contact = std::make_unique<PointContact>(bodies, sets, parts.contact_fields(), std::move(laws), settings);
   parts.at_points = contact.get();
   parts.modules.add(std::move(contact));
 }
@@ -173,8 +173,8 @@ void add_rigid_contact(RunParts& parts) {
       parts.modules.add(
           std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields, parts.volumes()));
     } else if (definition.contact.method == ContactMethod::nodes) {
-      auto contact = std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry, parts.sides,
-                                                    definition.gravity, parts.heat);
+      auto contact = std::make_unique<RigidContact>(body, parts.contact_fields(), parts.threads, definition.geometry,
+                                                    parts.sides, definition.gravity, parts.heat);
       if (parts.choice != nullptr) {
         contact->take_normals_at_centres(divided_fields(parts));
         contact->divide(fields_divided_by(body, parts));

@@ -30,7 +30,7 @@ void add_implicit(RunParts& parts) {
     made.tools.push_back(&parts.bodies[b]);
     made.laws.push_back(laws[b * parts.sets.size()]);
   }
-  made.grid = parts.fields.front().get();
+  made.grid = parts.contact_fields().front().get();
   ImplicitSettings settings;
   settings.geometry = definition.geometry;
   settings.across = definition.across();

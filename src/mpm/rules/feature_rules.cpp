@@ -353,7 +353,6 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::device, Feature::own_laws, "its code is not in the kernels of such a processor", kOnCpu},
       {Feature::device, Feature::body_laws, "all bodies are in one velocity field there", kOnCpu},
       {Feature::device, Feature::absorbing_faces, kNoKernel, kOnCpu},
-      {Feature::device, Feature::sleep, kNoKernel, kOnCpu},
       {Feature::device, Feature::following_ground, kNoKernel, kOnCpu},
       {Feature::device, Feature::transport, kNoKernel, kOnCpu},
       {Feature::device, Feature::cracks, kNoKernel, kOnCpu},

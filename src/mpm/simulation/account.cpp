@@ -21,10 +21,11 @@ Vec3 particle_vector(const Field& field, const GridLayout& layout, int p) {
 }
 
 // In one pass, since most of the time goes into fetching the particles; grouped so that the result does not depend on
-// the number of threads. `of_groups`: their sums, of which those asleep are kept from the last time.
+// the number of threads. `of_groups`: their sums, of which those asleep are kept from the last time. `begin`: the first
+// particle that counts; 0, or the first one asleep.
 template <class LawType>
 MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& layout, GeometryKind geometry,
-                         const Vec3& gravity, int threads, RunTotals::OfGroups& of_groups) {
+                         const Vec3& gravity, int threads, int begin, RunTotals::OfGroups& of_groups) {
   constexpr int kGroup = ParticleSet::kRestGroup;
   const int groups = (set.size() + kGroup - 1) / kGroup, dim = layout.dim();
   of_groups.sums.resize(groups);
@@ -37,7 +38,7 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
     of_groups.found_asleep[g] = asleep;
     of_groups.changes[g] = changes;
     MaterialTotals& sum = of_groups.sums[g] = {};
-    for (int p = first; p < end; ++p) {
+    for (int p = std::max(first, begin); p < end; ++p) {
       const ParticleTensors t = particle_tensors(set, geometry, p);
       const double mass = set.masses.empty() ? 1.0 : set.mass_of(p);  // equal masses are multiplied in the end
       double speed2 = 0.0, height = 0.0;
@@ -167,13 +168,14 @@ const RunTotals& Simulation::State::find_totals() {
   MaterialTotals& of_all = totals.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
     if (!closes_energy(traits_of(laws[i]))) totals.energy.leave_open();
-    of_all += device ? totals_of_device(static_cast<int>(i))
-                     : std::visit(
-                           [&](const auto& law) {
-                             return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads,
-                                              totals.of_set[i]);
-                           },
-                           laws[i]);
+    if (device) of_all += totals_of_device(static_cast<int>(i));
+    if (device && sets[i].asleep == 0) continue;
+    of_all += std::visit(
+        [&](const auto& law) {
+          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads,
+                           device ? sets[i].awake() : 0, totals.of_set[i]);
+        },
+        laws[i]);
   }
   totals.energy.add("kinetic", NamedEnergy::Kind::stored, of_all.kinetic);
   totals.energy.add("elastic", NamedEnergy::Kind::stored, of_all.elastic);

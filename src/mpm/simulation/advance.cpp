@@ -65,6 +65,7 @@ bool Simulation::State::step(double start, double dt, bool more) {
     fetched = Device::Numbers::none;
     context.strain_at_start = strain_at_start(definition.method.update);
     if (host_contact) host_contact->begin_step(context);
+    if (rest_on_host) rest_on_host->begin_step(context);
     device->step(start, dt);
   } else {
     kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
@@ -85,6 +86,8 @@ bool Simulation::State::step(double start, double dt, bool more) {
                 more && asked_to_stop && asked_to_stop(), false};
   if (over) {
     now = over->shared(now, *mechanics);
+  } else if (device) {
+    now.sorts = now.sorts || (rest_on_host && rest_on_host->has_left());
   } else {
     now.sorts = now.sorts || mechanics->needs_sort();
   }
@@ -120,7 +123,7 @@ void Simulation::State::begin_modules() {
 
 void Simulation::State::hand_to_device(const DeviceMaker& maker) {
   begin_modules();
-  device = maker.make(definition, sets, {*mechanics, modules, host_contact.get()});
+  device = maker.make(definition, sets, {*mechanics, modules, host_contact.get(), rest_on_host.get()});
   for (const Module* module : modules.list()) module->teach(*device);
 }
 

@@ -204,12 +204,17 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller, bo
                  notes,
                  [this]() -> const EnergyReport& { return find_totals().energy; },
                  interrupt};
-  if (on_device && !bodies.empty()) {
-    host_contact = std::make_unique<ContactOnHost>(bodies, modules, fields, sets);
+  // An implicit step solves all contacts itself, on a grid of its own.
+  if (on_device && (!bodies.empty() || definition.method.update == UpdateScheme::implicit)) {
+    host_contact = std::make_unique<ContactOnHost>(bodies, modules, make_fields(definition, field_map.count()), sets);
     parts.near_bodies = &host_contact->sets();
+    parts.fields_near_bodies = &host_contact->fields();
   }
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
+  if (on_device && parts.sleep != nullptr) {
+    rest_on_host = std::make_unique<RestOnHost>(*parts.sleep, modules, fields, sets, device);
+  }
   for (Module* module : modules.list()) {
     if (auto* reporter = dynamic_cast<ContactReporter*>(module)) reporters.push_back(reporter);
   }
@@ -320,6 +325,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
 
   const double lightest = least_mass(s.sets, s.ranks.get());
   for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;
+  for (std::size_t f = 0; s.host_contact && f < s.fields.size(); ++f) {
+    s.host_contact->fields()[f]->least_mass = 1e-30 * lightest;
+  }
   s.gravity.name = "gravity";
   if (s.over) s.over->divide(s.sets);
   s.sort(0.0);

@@ -1,6 +1,7 @@
 #include "contact_on_host.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mpm/contact/point_search.hpp"
 
@@ -28,17 +29,19 @@ ParticleSet without_particles(const ParticleSet& set) {
 
 }  // namespace
 
-ContactOnHost::ContactOnHost(const std::vector<RigidBody>& bodies, const Modules& modules, Fields& fields,
+ContactOnHost::ContactOnHost(const std::vector<RigidBody>& bodies, const Modules& modules, Fields fields,
                              const std::vector<ParticleSet>& sets)
-    : bodies_(bodies), modules_(modules), fields_(fields) {
-  const GridLayout& layout = fields.front()->layout;
+    : bodies_(bodies), modules_(modules), fields_(std::move(fields)), context_{fields_, 0.0} {
+  const GridLayout& layout = fields_.front()->layout;
   reach_ = PointSearch::reach(sets, layout);
   for (const RigidBody& body : bodies) reach_ = std::max(reach_, (1.0 + body.reach()) * layout.smallest_cell());
   for (const ParticleSet& set : sets) sets_.push_back(without_particles(set));
 }
 
-void ContactOnHost::begin_step(StepContext& context) {
-  context_ = &context;
+void ContactOnHost::begin_step(const StepContext& context) {
+  context_.dt = context.dt;
+  context_.start = context.start;
+  context_.strain_at_start = context.strain_at_start;
   bounds_.clear();
   for (const RigidBody& body : bodies_) bounds_.push_back(body.world_bounds().grown(reach_));
 }

@@ -189,7 +189,9 @@ void Simulation::State::serialise(StateArchive& archive) {
     ask_device([&] {
       for (Module* module : modules.list()) module->learn(*device);
     });
-    if (moved_by_device && !failed) {
+    if (rest_on_host) {
+      rest_on_host->find_loose();  // the order is that of the last sort, as on the processor
+    } else if (moved_by_device && !failed) {
       // Sorted as a run on the processor has them, from an order that does not depend on when they were read before.
       for (ParticleSet& set : sets) put_in_order_of_ids(set, threads);
       sort(seconds_of(time));
@@ -241,7 +243,7 @@ void Simulation::State::serialise(StateArchive& archive) {
   }
   if (archive.merging()) {
     if (over) over->divide(sets);
-    sort(seconds_of(time));
+    sort_here(seconds_of(time));
   }
   if (archive.reading() && device) {
     begin_modules();

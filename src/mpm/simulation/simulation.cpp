@@ -93,7 +93,7 @@ std::optional<ParticleRef> Simulation::State::sort_particles() {
 
 void Simulation::State::check_together(const std::function<void()>& check) { agree<PhysicsError>(ranks.get(), check); }
 
-void Simulation::State::sort(double now) {
+void Simulation::State::sort_here(double now) {
   const std::vector<Module*>& list = modules.list();
   for (Module* module : list) module->before_sort();
   const auto anywhere = [this](bool own) { return any_of_all(ranks.get(), own); };

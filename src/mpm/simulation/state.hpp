@@ -15,6 +15,7 @@
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
 #include "over_ranks.hpp"
+#include "rest_on_host.hpp"
 
 namespace mpm {
 
@@ -88,6 +89,7 @@ struct Simulation::State {
   std::unique_ptr<Mechanics> mechanics;
   std::unique_ptr<Device> device;                  ///< another processor that takes the steps, else null
   std::unique_ptr<ContactOnHost> host_contact;     ///< contact in the device's steps; null without one, or rigid bodies
+  std::unique_ptr<RestOnHost> rest_on_host;        ///< sleep in the device's steps; null without one, or sleep
   Device::Numbers fetched = Device::Numbers::all;  ///< numbers that the sets show as the device has them
   bool moved_by_device = false;                    ///< true if sets show its steps and have not been sorted since
   std::vector<RigidBody> bodies;
@@ -179,8 +181,12 @@ struct Simulation::State {
   /// One step of the schedule, with the checks after it; it begins at `start` [s]. `more`: whether others follow in the
   /// sync period; then it returns whether the run, on any rank, is asked to stop.
   bool step(double start, double dt, bool more);
-  /// @throws PhysicsError for a particle that is not where it may be
-  void sort(double now);
+  /// Sorts, and lets particles fall asleep and wake. @throws PhysicsError for a particle that is not where it may be
+  void sort(double now) { rest_on_host&& device ? sort_beside_device(now) : sort_here(now); }
+  /// The same of the sets as they are here.
+  void sort_here(double now);
+  /// The same of the particles of a device, which takes those that are awake then (rest_on_host.cpp).
+  void sort_beside_device(double now);
   /// Lets ranks meet where tools have come to, with particles as they lie.
   void meet_again();
   /// The same as the sorter: after particles have gone to their ranks, and before these meet.

@@ -159,7 +159,7 @@ StepLimit Simulation::State::survey_motion() const {
 
 StepLimit Simulation::State::survey_material() {
   if (definition.method.update == UpdateScheme::implicit) {
-    if (device) fetch(Device::Numbers::motion);
+    if (device) fetch(Device::Numbers::velocity);
     return survey_motion();
   }
   const int dim = layout().dim();

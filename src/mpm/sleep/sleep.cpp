@@ -95,7 +95,7 @@ bool Sleep::follow_sort(const StepContext& context) {
     borders_[f].find(static_cast<int>(f), grid, asleep_, parts_.halo);
     for (SleepBorder::Node& node : borders_[f].nodes()) {
       for (const RestPartner* partner : parts_.partners)
-        node.at_wall = node.at_wall || partner->holds(static_cast<int>(f), node.ref);
+        node.at_wall = node.at_wall || partner->holds(static_cast<int>(f), grid, node.ref);
     }
     grid.at_rest.clear();
     grid.means_at_rest.clear();

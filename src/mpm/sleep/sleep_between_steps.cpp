@@ -94,6 +94,15 @@ void Sleep::fall_asleep() {
   }
 }
 
+bool Sleep::needs_forces() const {
+  const auto has_forces = [](const RestPartner* partner) { return partner->has_forces(); };
+  return !sleepers_.empty() && std::any_of(parts_.partners.begin(), parts_.partners.end(), has_forces);
+}
+
+void Sleep::find_forces(const StepContext& context) const {
+  for (RestPartner* partner : parts_.partners) partner->find_forces(context);
+}
+
 RestingBlock Sleep::awake_block(int field, int owner) const {
   const Grid& grid = *parts_.fields[field];
   const int block = grid.blocks.owner_block(owner);

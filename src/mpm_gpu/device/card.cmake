@@ -27,7 +27,7 @@ function(mpm_compile_for_card objects source)
 endfunction()
 
 set(card_objects)
-foreach(name cells holds near_copies put_around solver totals)
+foreach(name cells holds home_blocks near_copies put_around solver totals)
   mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -ffp-contract=off)
 endforeach()
 foreach(name passes laws soil)
@@ -40,8 +40,9 @@ add_custom_command(OUTPUT ${sort_and_scan}
     -MD -MF ${sort_and_scan}.d -c -o ${sort_and_scan} ${PROJECT_SOURCE_DIR}/src/mpm_gpu/device/sort_and_scan.cu
   DEPENDS src/mpm_gpu/device/sort_and_scan.cu DEPFILE ${sort_and_scan}.d COMMENT "Building scan and sort for cards" VERBATIM)
 
-add_library(mpm_gpu_cuda STATIC EXCLUDE_FROM_ALL src/mpm_gpu/device.cpp src/mpm_gpu/exchange.cpp src/mpm_gpu/held_nodes.cpp src/mpm_gpu/implicit_soil.cpp
-  src/mpm_gpu/leaving.cpp src/mpm_gpu/loads.cpp src/mpm_gpu/near_bodies.cpp src/mpm_gpu/prescribed.cpp src/mpm_gpu/stages.cpp
+add_library(mpm_gpu_cuda STATIC EXCLUDE_FROM_ALL src/mpm_gpu/device.cpp src/mpm_gpu/exchange.cpp src/mpm_gpu/held_nodes.cpp
+  src/mpm_gpu/implicit_soil.cpp src/mpm_gpu/leaving.cpp src/mpm_gpu/loads.cpp src/mpm_gpu/near_bodies.cpp src/mpm_gpu/near_rest.cpp
+  src/mpm_gpu/prescribed.cpp src/mpm_gpu/stages.cpp
   src/mpm_gpu/tractions.cpp src/mpm_gpu/device/card.cpp ${card_objects} ${sort_and_scan})
 set_source_files_properties(${card_objects} ${sort_and_scan} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 target_compile_definitions(mpm_gpu_cuda PUBLIC MPM_CUDA)

@@ -85,6 +85,8 @@ void each_of_soil() {
   (void)&launch<SoilMotionKernel<T, kDim>>;
   (void)&launch<SoilTakeKernel<T, Geometry>>;
   (void)&launch<SoilStoreKernel<T, kDim>>;
+  (void)&launch<HeldAtRestKernel<T, kDim>>;
+  (void)&launch<StoreAtRestKernel<T, kDim>>;
   if constexpr (kDim == 2) return;
   (void)&launch<SoilGoOnKernel<T>>;
   (void)&launch<RowsGoOnKernel<T>>;

@@ -52,6 +52,14 @@ struct SoilPassesOf {
         },
         partial);
   }
+  static void held_at_rest(Executor& run, const Step& step, const Soil& soil, const std::int32_t* numbers, long count,
+                           double* to) {
+    run.for_each("gpu: accounts", count, HeldAtRestKernel<T, kDim>{soil, step.nodes, numbers, to});
+  }
+  static void store_at_rest(Executor& run, const Step& step, const Soil& soil, const std::int32_t* numbers, long count,
+                            const double* impulses) {
+    run.for_each("gpu: nodes of the soil", count, StoreAtRestKernel<T, kDim>{soil, step, numbers, impulses});
+  }
   static void motion(Executor& run, const Step& step, const Soil& soil) {
     run.for_each("gpu: cells to particles", step.nodes.nodes * soil.soils, SoilMotionKernel<T, kDim>{soil});
   }
@@ -83,9 +91,9 @@ struct SoilPassesOf {
   static void owners(Executor& run, const Step& step, std::uint8_t* to) {
     run.for_each("gpu: blocks", step.nodes.blocks, OwnersKernel<T>{step, nodes_of_block(kDim), to});
   }
-  static constexpr SoilPassTable<T> kPasses = {&numbers, &load,          &cells, &push,   &sweep,    &changes,
-                                               &go_on,   &go_on_in_rows, &meet,  &held,   &motion,   &take,
-                                               &deeds,   &store,         &pack,  &unpack, &impulses, &owners};
+  static constexpr SoilPassTable<T> kPasses = {
+      &numbers,      &load,   &cells, &push,  &sweep, &changes,       &go_on, &go_on_in_rows, &meet,     &held,
+      &held_at_rest, &motion, &take,  &deeds, &store, &store_at_rest, &pack,  &unpack,        &impulses, &owners};
 };
 
 template <class T>

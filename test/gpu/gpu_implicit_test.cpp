@@ -2,12 +2,14 @@
 // loads, periodic axes. Cost: 6 s.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "gpu_runs.hpp"
 #include "gpu_scenes.hpp"
 #include "mpm/rigid/surface.hpp"
+#include "mpm/scene/scene.hpp"
 
 namespace gpu_implicit_test {
 
@@ -116,21 +118,13 @@ SimulationDefinition flowing_layer(Precision precision) {
   return d;
 }
 
-double of_module(const Simulation& simulation, const std::string& name) {
-  for (const mpm::NamedNumber& one : simulation.numbers()) {
-    if (one.name == name) return one.value;
-  }
-  ADD_FAILURE() << name;
-  return 0.0;
-}
-
 void expect_solved_alike(SimulationDefinition (*of)(Precision), const std::vector<const char*>& fields,
                          double bound = kRoundOff) {
   Simulation here(scene(of), options(false)), there(scene(of), options(true));
   for (int i = 0; i < kPeriods; ++i) {
     here.advance();
     there.advance();
-    EXPECT_EQ(of_module(here, "sweeps"), of_module(there, "sweeps"));
+    EXPECT_EQ(number(here, "sweeps"), number(there, "sweeps"));
   }
   expect_sums_alike(here, there, bound);
   for (const char* name : fields) EXPECT_LT(difference(here, there, name), bound) << name;
@@ -146,8 +140,8 @@ void expect_solved_alike(SimulationDefinition (*of)(Precision), const std::vecto
 }
 
 const std::vector<const char*> kMotion = {"x", "z", "vx", "vz", "j", "szz", "plastic_energy"};
-// Whether the shear of soil that has parted counts as plastic strain is decided by the last bit of a stress that is none
-// (kernel/soil_relax.hpp), on either processor: with cohesion it is compared where none parts.
+// Whether the shear of soil that has parted counts as plastic strain is decided by the last bit of a stress that is
+// none (kernel/soil_relax.hpp), on either processor: with cohesion it is compared where none parts.
 const std::vector<const char*> kFields = {"x", "z", "vx", "vz", "j", "szz", "plastic_energy", "ep"};
 
 TEST(GpuImplicit, Column) { expect_solved_alike(column, kFields); }
@@ -158,6 +152,53 @@ TEST(GpuImplicit, PressedBed) { expect_solved_alike(pressed_bed, kMotion); }
 TEST(GpuImplicit, FreeBallOnBed) { expect_solved_alike(struck_bed, kMotion); }
 TEST(GpuImplicit, ColumnUnderLoad) { expect_solved_alike(loaded_column, kFields); }
 TEST(GpuImplicit, LayerGoesAround) { expect_solved_alike(flowing_layer, {"z", "vx", "vz", "j", "szz"}); }
+
+/// A bed of sand that sleeps from the start, and a plate that is pressed into it from 10 ms on.
+SimulationDefinition bed_asleep(Precision precision) {
+  SimulationDefinition d = mpm::build(mpm::parse_scene(R"yaml(
+geometry: plane_strain
+thickness: 0.1
+grid: {cell: 0.02, min: [0, 0], max: [1.2, 0.4]}
+time: {end: 1, sync: 5 ms}
+gravity: [0, -9.81]
+method: {update: implicit}
+materials: [{name: sand, law: drucker_prager, density: 1600, young: 1 MPa, poisson: 0.3, friction_angle: 34 deg}]
+bodies: [{name: bed, material: sand, shape: {box: {min: [0, 0], max: [1.2, 0.2]}}, initial: geostatic}]
+rigid_bodies:
+  - {name: plate, shape: {box: {size: [0.16, 0.1]}}, pose: {position: [0.3, 0.27]}, friction: 0.3,
+     motion: {velocity: [0, "-0.5*min(1, max(0, (t-0.01)/0.02))"]
+}
+}
+boundaries : {
+x_min:
+  slip, x_max : slip, z_min : {
+  friction:
+    0.6
+  }
+}
+sleep: {speed: 5 mm/s, from_start: true}
+)yaml",
+                                                       "bed.yaml"));
+d.method.precision = precision;
+return d;
+}
+
+// What sleeps holds nodes, whose impulses its account has.
+TEST(GpuImplicit, BedThatWakes) {
+  Simulation here(scene(bed_asleep), options(false)), there(scene(bed_asleep), options(true));
+  double most = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    here.advance();
+    there.advance();
+    EXPECT_EQ(number(here, "sweeps"), number(there, "sweeps"));
+    EXPECT_EQ(number(here, "asleep"), number(there, "asleep")) << i;
+    most = std::max(most, number(here, "asleep"));
+  }
+  EXPECT_GT(most, 1000.0);
+  EXPECT_LT(number(here, "asleep"), most);
+  EXPECT_GT(here.take_contact(0).impulse.norm(), 0.0);
+  expect_alike(here, there);
+}
 
 // All bits are the same whatever the order in which indices are visited, and on several threads.
 TEST(GpuImplicit, SameBitsInAnyOrder) {
@@ -178,7 +219,7 @@ TEST(GpuImplicit, SameBitsInAnyOrder) {
 TEST(GpuImplicit, ResumesToTheBit) {
   const mpm::test::Folder folder;
   const std::string file = folder.file("implicit.h5");
-  for (const auto of : {pushed_column, struck_bed}) {
+  for (const auto of : {pushed_column, struck_bed, bed_asleep}) {
     Simulation whole(scene(of), options(true)), first(scene(of), options(true)), second(scene(of), options(true));
     advance(whole, kPeriods);
     advance(first, kPeriods / 2);

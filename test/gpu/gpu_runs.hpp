@@ -45,6 +45,15 @@ inline std::vector<double> field(const Simulation& simulation, const char* name)
   return values;
 }
 
+/// A number that a module reports.
+inline double number(const Simulation& simulation, const std::string& name) {
+  for (const mpm::NamedNumber& one : simulation.numbers()) {
+    if (one.name == name) return one.value;
+  }
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
 /// Largest difference of a field, over the largest value that it has.
 inline double difference(const Simulation& a, const Simulation& b, const char* name) {
   const std::vector<double> one = field(a, name), other = field(b, name);

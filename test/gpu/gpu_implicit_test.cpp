@@ -187,7 +187,7 @@ return d;
 TEST(GpuImplicit, BedThatWakes) {
   Simulation here(scene(bed_asleep), options(false)), there(scene(bed_asleep), options(true));
   double most = 0.0;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 20; ++i) {
     here.advance();
     there.advance();
     EXPECT_EQ(number(here, "sweeps"), number(there, "sweeps"));

@@ -14,9 +14,10 @@
 #include <vector>
 
 #include "mpm/implicit/implicit_step.hpp"
-#include "mpm/step/device.hpp"
-#include "mpm_gpu/near_copies.hpp"
+#include "mpm_gpu/near_tools.hpp"
+#include "mpm_gpu/soil_map.hpp"
 #include "mpm_gpu/soil_passes.hpp"
+#include "mpm_gpu/soil_rows.hpp"
 #include "mpm_gpu/solver.hpp"
 #include "mpm_gpu/stage.hpp"
 
@@ -32,13 +33,13 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, double across,
                mpm::HostRest* rest, Solver<T>& solver);
 
-  // Of Stage.
+  // Functions of Stage.
   void make_room(Executor& run, long nodes) override;
   void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
   void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
   std::size_t bytes() const override;
 
-  // Of SoilField.
+  // Functions of SoilField.
   void begin(double dt) override;
   std::vector<Node>& nodes() override { return nodes_; }
   void take_rows() override;
@@ -55,71 +56,41 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   bool put_out() override;
 
  private:
-  /// Lets the host's grid have the blocks of the table.
-  void take_blocks();
-  /// Names the nodes that sleep holds.
-  void take_rest();
-  void store_at_rest();
-  /// Takes holders of nodes and colours of blocks from the host's grid.
-  void take_grid();
   SoilView<T> view();
-  RowsView<T> rows();
   mpm_kernel::SoilParticles<T> particles_of(int body) const;
-  /// Number in the table of a node of the host's grid.
-  std::int32_t there(int node) const {
-    return node < static_cast<int>(map_.size()) ? map_[static_cast<std::size_t>(node)] : none_;
-  }
   void download_nodes();
-  void upload_rows();
-  /// Copies the impulses of so many rows of tools, or of walls, to the host's.
-  void download_impulses(long rows, long walls);
+  /// Gives nodes that sleep holds the velocities that they would have.
+  void store_at_rest();
 
   mpm::ImplicitSolve<T>& solve_;
   mpm::HostRest* rest_;
   Solver<T>& solver_;
-  const mpm::GridLayout layout_;
-  double across_, radius_;  ///< radius of the ball around a block in which its particles are at a step's end [m]
+  double across_;
+  int dim_;
   const SoilPassTable<T>& passes_;
+  SoilMap<T> map_;
+  SoilRows<T> rows_;
+  NearTools<T> near_tools_;
   std::vector<mpm_kernel::SoilConstants> constants_;  ///< constants of each soil
-  std::vector<mpm_kernel::SoilParticles<T>> shapes_;  ///< of each body, without pointers
+  std::vector<mpm_kernel::SoilParticles<T>> shapes_;  ///< description of each body, without pointers
   std::vector<std::uint64_t> sets_of_;                ///< bits of the sets of each soil
 
   Executor* run_ = nullptr;
-  StepView<T> step_{};  ///< of the step under way, or of the last one
+  StepView<T> step_{};  ///< view of the step under way, or of the last one
   double start_ = 0.0;
-  long sorts_ = 0, taken_ = -1;                      ///< sorts before this step, and when the blocks were taken
-  bool fresh_ = false;                               ///< blocks have been taken, but not what depends on them
-  std::vector<Node> nodes_;                          ///< on the host
-  std::int32_t none_ = 0;                            ///< number in the table that stands for none
-  std::vector<std::int32_t> map_;                    ///< number in the table of each node on the host
-  std::vector<std::int32_t> blocks_;                 ///< and of each block
-  std::array<long, 9> colour_{};                     ///< where the blocks of each colour begin in order_
-  std::array<long, 9> touched_{};                    ///< and those with rows in ranges_there_
-  std::vector<std::int32_t> list_, free_, at_rest_;  ///< numbers in the table
-  std::vector<int> free_nodes_;
-  std::vector<std::uint64_t> keys_, owners_;
-  std::vector<std::size_t> ends_;
-  std::vector<std::uint8_t> bytes_, marked_;
-  std::vector<T> impulses_;
-  std::vector<Node> shown_;
-  std::vector<mpm_kernel::ContactRow<T>> rows_;
-  std::vector<mpm_kernel::WallRow<T>> walls_;
+  long sorts_ = 0, taken_ = -1;  ///< sorts before this step, and before the blocks were taken
+  bool fresh_ = false;           ///< blocks have been taken, but not what depends on them
+  std::vector<Node> nodes_;      ///< copy on the host
+  std::vector<std::uint8_t> marked_;
   std::vector<mpm_kernel::SweepChange> changes_;
-  std::vector<std::uint32_t> ranges_, near_, ids_;
-  std::vector<double> surfaces_, places_, forces_;
-  NearCopies<T> copies_;
-
+  std::vector<double> impulses_;  ///< impulses of nodes at rest, three of each [N s]
   Buffer<Node> node_, before_, node_room_;
   Buffer<mpm_kernel::SoilGroup<T, 1>> cell_;
   Buffer<mpm_kernel::SoilMask<T, 1>> mask_;
   Buffer<mpm_kernel::SoilMotion<T>> motion_;
   std::array<Buffer<T>, kSoilNumbers> number_;
-  Buffer<std::uint8_t> holder_, marked_there_;
-  Buffer<std::int32_t> order_, map_there_, free_there_, ranges_there_, at_rest_there_;
-  Buffer<mpm_kernel::ContactRow<T>> row_;
-  Buffer<mpm_kernel::WallRow<T>> wall_;
-  Buffer<T> impulse_room_;
-  Buffer<double> force_room_;
+  Buffer<std::uint8_t> marked_there_;
+  Buffer<double> impulse_room_;
   Buffer<mpm_kernel::SweepChange> change_, change_room_;
   Buffer<HeldSums> of_held_;
   Buffer<DeedSums> of_deeds_;

@@ -16,7 +16,7 @@ namespace mpm_gpu {
 
 constexpr int kSoilNumbers = 10;  ///< numbers that a particle gives to its cells
 
-/// Who holds a component of a node's velocity, in the numbers of mpm::SoilGrid.
+/// Holders of a component of a node's velocity, in the numbers of mpm::SoilGrid.
 constexpr std::uint8_t kFreeComponent = 255, kAtRestComponent = 6;
 
 /// Place of a cell among those of its block, by its number along each axis, of a node likewise, 0 to 3: that of its

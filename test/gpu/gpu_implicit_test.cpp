@@ -140,8 +140,8 @@ void expect_solved_alike(SimulationDefinition (*of)(Precision), const std::vecto
 }
 
 const std::vector<const char*> kMotion = {"x", "z", "vx", "vz", "j", "szz", "plastic_energy"};
-// Whether the shear of soil that has parted counts as plastic strain is decided by the last bit of a stress that is
-// none (kernel/soil_relax.hpp), on either processor: with cohesion it is compared where none parts.
+// The last bit of a stress that is none decides if the shear of soil that has parted counts as plastic strain
+// (kernel/soil_relax.hpp), on either processor: it is compared where none parts.
 const std::vector<const char*> kFields = {"x", "z", "vx", "vz", "j", "szz", "plastic_energy", "ep"};
 
 TEST(GpuImplicit, Column) { expect_solved_alike(column, kFields); }
@@ -179,11 +179,11 @@ x_min:
 sleep: {speed: 5 mm/s, from_start: true}
 )yaml",
                                                        "bed.yaml"));
-d.method.precision = precision;
-return d;
+  d.method.precision = precision;
+  return d;
 }
 
-// What sleeps holds nodes, whose impulses its account has.
+// Nodes beside what sleeps are held, and its account has their impulses.
 TEST(GpuImplicit, BedThatWakes) {
   Simulation here(scene(bed_asleep), options(false)), there(scene(bed_asleep), options(true));
   double most = 0.0;

@@ -22,6 +22,7 @@
 #include <optional>
 
 #include "mpm/contact/contact_reporter.hpp"
+#include "mpm/implicit/out_of_tools.hpp"
 #include "mpm/implicit/soil_cells.hpp"
 #include "mpm/implicit/soil_field.hpp"
 #include "mpm/implicit/sweep_budget.hpp"
@@ -62,6 +63,7 @@ class ImplicitSolve {
   virtual const SoilBodies& bodies() const = 0;
   virtual ToolRows<T>& tools() = 0;
   virtual WallRows<T>& walls() = 0;
+  virtual const OutOfTools& out_of_tools() const = 0;
   /// Mass that is added to that of a node [kg].
   virtual double lightest() const = 0;
   /// As ImplicitSettings::loads.

@@ -53,7 +53,7 @@ struct ImplicitSoil {
   std::optional<J2PlasticityDefinition> metal_;
 };
 
-/// What the soils of a scene have at the least and at the most.
+/// Least and largest numbers of the soils of a scene.
 struct SoilRange {
   explicit SoilRange(const std::vector<ImplicitSoil>& soils);
   double least_density = 0.0;  ///< initial [kg/m^3]

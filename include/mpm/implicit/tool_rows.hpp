@@ -55,13 +55,6 @@ class ToolRows {
   ToolRows(std::vector<RigidBody*> bodies, std::vector<ContactLaw> laws, const SoilGrid& grid,
            const ToolRowSettings& settings);
 
-  /// Puts particles that lie in a body on its surface. Whether one has come so far beyond the block that it was sorted
-  /// into that they have to be sorted.
-  bool put_out(std::vector<ParticleSet>& sets, Grid& grid) const;
-  /// The same of one particle of a set at `x` [m], along the grid's axes. Returns true if it lay in a body.
-  bool put_out(const ParticleSet& set, double (&x)[3]) const;
-  /// True if a ball [m] meets what may hold a body in its way of a step.
-  bool near(const Vec3& place, double radius) const;
   /// Finds the rows of the step from `start` [s] on, with the impulses that they begin with, and gives these to the
   /// nodes.
   /// @throws FunctionError for a law of contact that is not possible
@@ -109,10 +102,6 @@ class ToolRows {
 
  private:
   void meet_each_other();
-  /// The same of one body, and the particles of a set in an owner's block.
-  bool put_out(const RigidBody& body, ParticleSet& set, Grid& grid, int owner) const;
-  /// Moves `x` to the body's surface if it lies in it, within the limits of the set. Returns true if it lay there.
-  bool move_out(const RigidBody& body, const Box& bounds, const ParticleSet& set, double (&x)[3]) const;
   /// Finds the pressure to resolve.
   void look_at_loads(double dt);
   /// Load on a body at the start of a step.

@@ -150,7 +150,7 @@ struct SoilConstants {
   double bulk, shear;                  ///< [Pa]
   double sine_end, sine_fall;          ///< at the end of the fall of strength, and by how much it falls
   double cohesion_end, cohesion_fall;  ///< [Pa]
-  double yield, hardening, saturation, saturation_rate;  ///< of metal, as j2_plasticity has them [Pa]
+  double yield, hardening, saturation, saturation_rate;  ///< numbers of metal, as j2_plasticity has them [Pa]
   double dilation;
   double least;                          ///< r_N at which it parts [Pa]
   double friction_rise, reference_rate;  ///< as in SoilGroup

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mpm/implicit/implicit_step.hpp"
+#include "mpm/implicit/out_of_tools.hpp"
 #include "mpm/implicit/soil_cells.hpp"
 #include "mpm/implicit/soil_field.hpp"
 #include "mpm/implicit/tool_rows.hpp"
@@ -19,6 +20,7 @@ struct FieldParts {
   const SoilGrid& soil_grid;
   ToolRows<T>& tools;
   WallRows<T>& walls;
+  const OutOfTools& out;
 };
 
 template <class T>
@@ -42,7 +44,7 @@ class HostField final : public SoilField<T> {
   void add_to_held(HeldImpulses& held) override { cells_.add_to_held(held); }
   void finish(double dt, SoilDeeds& deeds) override;
   double of_hoops() const override { return cells_.of_hoops(); }
-  bool put_out() override { return parts_.tools.put_out(parts_.sets, parts_.grid); }
+  bool put_out() override { return parts_.out.put(parts_.sets, parts_.grid, threads_); }
 
  private:
   mpm_kernel::SoilBlock<T> block_at(int block);

@@ -40,6 +40,7 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
         soil_grid_(grid_, settings.walls, axisymmetric(settings.geometry), settings.threads),
         bodies_(std::move(parts.bodies)),
         range_(bodies_.soils),
+        out_(parts.tools, grid_.layout),
         tools_(std::move(parts.tools), std::move(parts.laws), soil_grid_,
                {settings.geometry, settings.across, range_.least_density, settings.threads, settings.gravity,
                 settings.meeting}),
@@ -48,7 +49,7 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
     double volume = soil_grid_.rings() ? kTurn * grid_.layout.cell(0) : settings.across;
     for (int k = 0; k < grid_.layout.dim(); ++k) volume *= grid_.layout.cell(k);
     lightest_ = kLightest * range_.least_density * volume;
-    own_field_ = std::make_unique<HostField<T>>(FieldParts<T>{table_, grid_, sets_, soil_grid_, tools_, walls_},
+    own_field_ = std::make_unique<HostField<T>>(FieldParts<T>{table_, grid_, sets_, soil_grid_, tools_, walls_, out_},
                                                 bodies_, settings.threads, lightest_, settings.loads);
     field_ = own_field_.get();
     light_.name = "implicit/light_nodes";
@@ -94,12 +95,13 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
 
   void momentum_updated(StepContext& context) override { solve_step(context.start, context.dt); }
 
-  // Of ImplicitSolve.
+  // Functions of ImplicitSolve.
   Grid& grid() override { return grid_; }
   const SoilGrid& soil_grid() const override { return soil_grid_; }
   const SoilBodies& bodies() const override { return bodies_; }
   ToolRows<T>& tools() override { return tools_; }
   WallRows<T>& walls() override { return walls_; }
+  const OutOfTools& out_of_tools() const override { return out_; }
   double lightest() const override { return lightest_; }
   bool loads() const override { return settings_.loads; }
   void use(SoilField<T>& field) override {
@@ -299,6 +301,7 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
   SoilGrid soil_grid_;
   SoilBodies bodies_;
   SoilRange range_;
+  OutOfTools out_;
   ToolRows<T> tools_;
   WallRows<T> walls_;
   HeldImpulses held_;

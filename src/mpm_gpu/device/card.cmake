@@ -41,8 +41,8 @@ add_custom_command(OUTPUT ${sort_and_scan}
   DEPENDS src/mpm_gpu/device/sort_and_scan.cu DEPFILE ${sort_and_scan}.d COMMENT "Building scan and sort for cards" VERBATIM)
 
 add_library(mpm_gpu_cuda STATIC EXCLUDE_FROM_ALL src/mpm_gpu/device.cpp src/mpm_gpu/exchange.cpp src/mpm_gpu/held_nodes.cpp
-  src/mpm_gpu/implicit_soil.cpp src/mpm_gpu/leaving.cpp src/mpm_gpu/loads.cpp src/mpm_gpu/near_bodies.cpp src/mpm_gpu/near_rest.cpp
-  src/mpm_gpu/prescribed.cpp src/mpm_gpu/stages.cpp
+  src/mpm_gpu/implicit_soil.cpp src/mpm_gpu/leaving.cpp src/mpm_gpu/loads.cpp src/mpm_gpu/near_bodies.cpp src/mpm_gpu/near_rest.cpp src/mpm_gpu/near_tools.cpp
+  src/mpm_gpu/prescribed.cpp src/mpm_gpu/soil_map.cpp src/mpm_gpu/soil_rows.cpp src/mpm_gpu/stages.cpp
   src/mpm_gpu/tractions.cpp src/mpm_gpu/device/card.cpp ${card_objects} ${sort_and_scan})
 set_source_files_properties(${card_objects} ${sort_and_scan} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 target_compile_definitions(mpm_gpu_cuda PUBLIC MPM_CUDA)

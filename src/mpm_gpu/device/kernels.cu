@@ -15,7 +15,7 @@
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/prescribed_passes.hpp"
-#include "mpm_gpu/soil_kernels.hpp"
+#include "mpm_gpu/soil_end_kernels.hpp"
 #pragma clang force_cuda_host_device end
 #include "mpm_gpu/device/law_functions.hpp"
 

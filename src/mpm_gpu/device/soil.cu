@@ -2,7 +2,7 @@
 #include "mpm_gpu/device/host_headers.hpp"
 
 #pragma clang force_cuda_host_device begin
-#include "mpm_gpu/soil_kernels.hpp"
+#include "mpm_gpu/soil_end_kernels.hpp"
 #pragma clang force_cuda_host_device end
 #include "mpm_gpu/device/law_functions.hpp"
 

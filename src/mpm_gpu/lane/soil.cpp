@@ -1,4 +1,4 @@
-#include "mpm_gpu/soil_kernels.hpp"
+#include "mpm_gpu/soil_end_kernels.hpp"
 
 namespace mpm_gpu {
 namespace {

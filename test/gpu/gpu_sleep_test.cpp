@@ -50,7 +50,8 @@ sleep: {speed: 10 mm/s, after: 20 ms}
 )yaml";
 
 Simulation run_of(const char* text, bool on_device, const std::vector<std::string>& changes = {}) {
-  SimulationOptions chosen = options(on_device);
+  SimulationOptions chosen = options(false);
+  if (on_device) chosen.device = mpm_gpu::device_by(mpm_gpu::Executor(mpm_gpu::Visits::shuffled));
   chosen.isa = mpm::Isa::plain;  // the number of lanes says when the processor sorts particles to be faster
   return Simulation(mpm::build(mpm::parse_scene(text, "sleep.yaml", changes)), chosen);
 }
@@ -101,11 +102,14 @@ TEST(GpuSleep, AtPoints) {
   expect_waking_alike(kBed, kPressed, {"contact.method=points"}, 2e-3);  // sweeps, as in gpu_contact_test.cpp
 }
 TEST(GpuSleep, InSingle) { expect_waking_alike(kBed, kPressed, {"method.precision=single"}, 1e-5); }
-TEST(GpuSleep, WithOtherMethods) {
-  expect_waking_alike(kBed, kPressed, {"method={update: usl, transfer: {fmpm: 2}}"});
-  expect_waking_alike(kStruck, kFallen, {"method={update: usavg, shape: ugimp_stretch, transfer: {xpic: 2}}"});
-  expect_waking_alike(kStruck, 30, {"method={update: usf, shape: bspline3, transfer: {flip: 0.6, xpic: 2, every: 5}}"});
+TEST(GpuSleep, WithFmpm) { expect_waking_alike(kBed, kPressed, {"method={update: usl, transfer: {fmpm: 2}}"}); }
+TEST(GpuSleep, WithXpic) {
+  expect_waking_alike(kStruck, 30, {"method={update: usavg, shape: ugimp_stretch, transfer: {xpic: 2}}"});
 }
+TEST(GpuSleep, WithMixture) {
+  expect_waking_alike(kStruck, 30, {"method={update: usf, transfer: {flip: 0.6, xpic: 2, every: 5}}"});
+}
+TEST(GpuSleep, WithSplines) { expect_waking_alike(kBed, 15, {"method={update: usf, shape: bspline3}"}); }
 TEST(GpuSleep, WithDampingOfSlowNodes) { expect_waking_alike(kStruck, kFallen, {"sleep.damping=0.3"}); }
 TEST(GpuSleep, WithMeanStresses) { expect_waking_alike(kBed, kPressed, {"method.average_stress=true"}); }
 

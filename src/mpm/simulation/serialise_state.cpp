@@ -189,7 +189,7 @@ void Simulation::State::serialise(StateArchive& archive) {
     ask_device([&] {
       for (Module* module : modules.list()) module->learn(*device);
     });
-    if (rest_on_host) {
+    if (rest_on_host && !failed) {
       rest_on_host->find_loose();  // the order is that of the last sort, as on the processor
     } else if (moved_by_device && !failed) {
       // Sorted as a run on the processor has them, from an order that does not depend on when they were read before.

@@ -88,6 +88,18 @@ struct Impulses {
   OfFace face[6] = {};
   double averaged = 0.0;  ///< taken by mean stresses
 
+  Impulses& operator+=(const Impulses& other) {
+    for (int c = 0; c < 3; ++c) gravity[c] += other.gravity[c];
+    for (int f = 0; f < 6; ++f) {
+      for (int c = 0; c < 3; ++c) face[f].impulse[c] += other.face[f].impulse[c];
+      face[f].exchanged += other.face[f].exchanged;
+      face[f].friction += other.face[f].friction;
+      face[f].held += other.face[f].held;
+    }
+    averaged += other.averaged;
+    return *this;
+  }
+
   /// Impulse of all walls.
   std::array<double, 3> walls() const {
     std::array<double, 3> sum{};
@@ -124,9 +136,8 @@ class Solver {
   const ParticleStore<T>& particles() const { return store_; }
   const GridView& grid() const { return grid_; }
   const std::vector<SetView>& sets() const { return sets_; }
-  const Impulses& impulses() const { return impulses_; }
-  /// For a caller who takes sums away, so that they begin again at zero.
-  Impulses& impulses() { return impulses_; }
+  /// Sums up to now, for which it waits; a caller may take some away, so that they begin again at zero.
+  Impulses& impulses();
   /// State of the nodes of walls in the last step.
   const WallHolds& holds() const { return holds_; }
   WallHolds& holds() { return holds_; }
@@ -282,6 +293,8 @@ class Solver {
   Buffer<Totals> of_totals_;
   Buffer<Faster> of_faster_;
   Impulses impulses_;
+  Buffer<Impulses> impulses_there_;  ///< those of the steps since the last call of impulses()
+  bool counted_ = false;             ///< there was such a step
   std::vector<std::unique_ptr<Stage<T>>> stages_;
   bool must_sort_ = true;
   long steps_ = 0, sorts_ = 0;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -62,6 +61,9 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
   of_totals_.fit(Executor::groups_of(count_));
   of_faster_.fit(Executor::groups_of(count_));
   around_.fit(count_);
+  const Impulses none;
+  impulses_there_.fit(1);
+  impulses_there_.upload(&none, 1);
   make_room();
 }
 
@@ -261,22 +263,42 @@ void Solver<T>::account(double dt) {
                                moved_[1].data(),
                                dt,
                                kStrainAtStart[static_cast<int>(method_.update)]};
-  const OfNodes all = run_.reduce<OfNodes>(
+  if (walls.nodes.nodes == 0) return;  // all is asleep
+  run_.reduce_there<OfNodes>(
       "gpu: accounts", walls.nodes.nodes,
       [=](long i) {
         return OfNode<Dim>{&walls, i, walls.nodes.mass[i] > walls.grid.least_mass};
       },
       of_nodes_);
-  for (int c = 0; c < Dim; ++c) impulses_.gravity[c] += all.mass * grid_.gravity[c] * dt;
-  for (int f = 0; f < 2 * Dim; ++f) {
-    const auto& [given, loss] = all.face[f];
-    Impulses::OfFace& face = impulses_.face[f];
-    for (int c = 0; c < Dim; ++c) face.impulse[c] += given[c];
-    face.exchanged += std::hypot(given[0], given[1], given[2]);
-    face.friction += loss.friction;
-    face.held += loss.held;
-  }
-  impulses_.averaged += all.averaged;
+  const OfNodes* all = of_nodes_.data();
+  Impulses* sums = impulses_there_.data();
+  const GridView grid = grid_;
+  run_.for_each("gpu: accounts", 1, [=](long) {
+    for (int c = 0; c < Dim; ++c) sums->gravity[c] += all->mass * grid.gravity[c] * dt;
+    for (int f = 0; f < 2 * Dim; ++f) {
+      const auto& [given, loss] = all->face[f];
+      Impulses::OfFace& face = sums->face[f];
+      double square = 0.0;
+      for (int c = 0; c < Dim; ++c) {
+        face.impulse[c] += given[c];
+        square += given[c] * given[c];
+      }
+      face.exchanged += __builtin_sqrt(square);
+      face.friction += loss.friction;
+      face.held += loss.held;
+    }
+    sums->averaged += all->averaged;
+  });
+  counted_ = true;
+}
+
+template <class T>
+Impulses& Solver<T>::impulses() {
+  if (!std::exchange(counted_, false)) return impulses_;
+  impulses_ += impulses_there_.get(0);
+  const Impulses none;
+  impulses_there_.upload(&none, 1);
+  return impulses_;
 }
 
 template <class T>

@@ -22,7 +22,7 @@ using mpm_kernel::SoilSums;
 constexpr int kEdge = 4;   ///< cells of a block along an axis
 constexpr int kAlong = 3;  ///< blocks around one along an axis
 constexpr int kCount = 200;
-constexpr int kCorner[3] = {8, 4, 12};  ///< of the block at work
+constexpr int kCorner[3] = {8, 4, 12};  ///< first node of the block at work
 
 /// Those of this build and machine.
 std::vector<mpm::Isa> sets() {

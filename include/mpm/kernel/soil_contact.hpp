@@ -58,7 +58,7 @@ void touch_row(ContactRow<T>& row, SoilNode<T>* nodes) {
 }
 
 template <class T>
-void touch_wall(WallRow<T>& row, SoilNode<T>* nodes) {
+inline __attribute__((always_inline)) void touch_wall(WallRow<T>& row, SoilNode<T>* nodes) {
   SoilNode<T>& node = nodes[row.node];
   T normal[3] = {T(0), T(0), T(0)}, u[3], l[3];
   normal[row.axis] = row.out;

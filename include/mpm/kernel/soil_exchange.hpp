@@ -128,10 +128,11 @@ auto in_geometry(const Symmetric3<W>& s) {
   }
 }
 
-/// Strain, stress and history of `lanes` particles from p on, from the mean over their pieces of the cells' motion.
-template <class Geometry, class T>
-inline __attribute__((always_inline)) void take_motion(const SoilParticles<T>& set, int p, int lanes,
-                                                       const Wide<T> (&of)[kMotionNumbers], double dt) {
+/// Strain, stress and history of `lanes` particles from p on, from the mean over their pieces of the cells' motion:
+/// of[i] is number i of SoilMotion, in an array, or in what loads it where it is wanted.
+template <class Geometry, class T, class Numbers>
+inline __attribute__((always_inline)) void take_motion(const SoilParticles<T>& set, int p, int lanes, const Numbers& of,
+                                                       double dt) {
   using W = Wide<T>;
   W l[3][3];
   for (int c = 0; c < 3; ++c) {

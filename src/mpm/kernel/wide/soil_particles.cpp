@@ -207,6 +207,14 @@ void gather(const SoilParticles<T>& set, int first, int last, const int* corner,
   }
 }
 
+/// Numbers that a register of particles takes, the first of which is number q of its chunk.
+template <class T>
+struct MeanNumbers {
+  const T (*numbers)[kPadded];
+  int q;
+  Wide<T> operator[](int i) const { return Wide<T>::load(numbers[i] + q); }
+};
+
 template <class Geometry, class T>
 void take(const SoilParticles<T>& set, int first, int last, const int* corner, const SoilPlacesOf<T>& places,
           double dt) {
@@ -241,9 +249,7 @@ void take(const SoilParticles<T>& set, int first, int last, const int* corner, c
     }
     for (int q = 0; q < count; q += W::kLanes) {
       const int p = begin + q, lanes = count - q;
-      W of[soil::kMotionNumbers];
-      for (int i = 0; i < soil::kMotionNumbers; ++i) of[i] = W::load(numbers[i] + q);
-      soil::take_motion<Geometry>(set, p, lanes, of, dt);
+      soil::take_motion<Geometry>(set, p, lanes, MeanNumbers<T>{numbers, q}, dt);
     }
   }
 }

@@ -300,9 +300,7 @@ TEST(GpuStep, SolverGoesOnFromThere) {
 TEST(GpuStep, RefusesByName) {
   SimulationDefinition d = gpu_scenes::falling_block(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
-  d.method.update = mpm::UpdateScheme::implicit;
   const std::string begin = "steps on a graphics processor and ";
-  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "implicit steps do not go together: "), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::column(mpm::Precision::float64);
   d.walls[0].kind = mpm::WallKind::absorbing;
   EXPECT_EQ(mpm_gpu::refused(d).find(begin + "absorbing faces (x_min) "), 0U) << mpm_gpu::refused(d);
@@ -321,10 +319,18 @@ TEST(GpuStep, RefusesByName) {
   EXPECT_EQ(mpm_gpu::refused(d).find(begin + "tractions that follow a face"), 0U) << mpm_gpu::refused(d);
   d = gpu_scenes::column_pressed(mpm::Precision::float64);
   EXPECT_EQ(mpm_gpu::refused(d), "");
+  d.method.update = mpm::UpdateScheme::implicit;
+  EXPECT_EQ(mpm_gpu::refused(d).find(begin + "velocity conditions beside"), 0U) << mpm_gpu::refused(d);
+  d.method.update = mpm::UpdateScheme::usavg;
   d.walls[0].kind = mpm::WallKind::frictional;
   EXPECT_EQ(mpm_gpu::refused(d).find(begin + "velocity conditions beside"), 0U) << mpm_gpu::refused(d);
   const std::vector<ParticleSet> none;
   EXPECT_THROW(DeviceRun<double>(d, none), mpm_gpu::GpuError);
+  // Steps alone have no solve of an implicit step.
+  d = gpu_scenes::column(mpm::Precision::float64);
+  mpm::SimulationProbe solver(d);
+  d.method.update = mpm::UpdateScheme::implicit;
+  EXPECT_THROW(DeviceRun<double>(d, solver.sets()), mpm_gpu::GpuError);
 }
 
 // A step so long that the block leaves the domain names one of its particles.

@@ -39,7 +39,7 @@ inline __attribute__((always_inline)) void coulomb(const T* u, const T* normal, 
 }
 
 template <class T>
-void touch_row(ContactRow<T>& row, SoilNode<T>* nodes) {
+inline __attribute__((always_inline)) void touch_row(ContactRow<T>& row, SoilNode<T>* nodes) {
   Four<T> part[2] = {};  // sums of even and odd nodes, so that half as many sums wait for each other
   for (int e = 0; e < kCellNodes; ++e) part[e % 2] += four(row.weight[e]) * four(nodes[row.node[e]].v);
   const Four<T> velocity = part[0] + part[1];

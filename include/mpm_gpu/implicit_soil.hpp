@@ -5,8 +5,8 @@
 //
 // Weak: all nodes are copied to the host and back for the rows of contact, and once more at the end; a sweep waits for
 // the host, which looks at its change, and copies the rows' impulses; for free bodies it copies the nodes around them
-// twice. Which blocks are in use is found on the host after each sort. A cell takes some 600 bytes in single precision,
-// with what reserves twice the room in use.
+// twice. Which blocks are in use is found on the host after each sort. A node of the table takes some 600 bytes in
+// single precision for each soil, and there is room for two to four times the nodes in use.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
 
   /// All outlive this object, which takes the place of the soil in `solve`. `sets`: of the simulation. `rest`: sleep
   /// beside it; null without it.
-  ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, double across,
-               mpm::HostRest* rest, Solver<T>& solver);
+  ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, mpm::HostRest* rest,
+               Solver<T>& solver);
 
   // Functions of Stage.
   void make_room(Executor& run, long nodes) override;
@@ -65,7 +65,6 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   mpm::ImplicitSolve<T>& solve_;
   mpm::HostRest* rest_;
   Solver<T>& solver_;
-  double across_;
   int dim_;
   const SoilPassTable<T>& passes_;
   SoilMap<T> map_;
@@ -73,14 +72,16 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   NearTools<T> near_tools_;
   std::vector<mpm_kernel::SoilConstants> constants_;  ///< constants of each soil
   std::vector<mpm_kernel::SoilParticles<T>> shapes_;  ///< description of each body, without pointers
-  std::vector<std::uint64_t> sets_of_;                ///< bits of the sets of each soil
+  Buffer<std::int32_t> soil_of_set_;
 
   Executor* run_ = nullptr;
   StepView<T> step_{};  ///< view of the step under way, or of the last one
   double start_ = 0.0;
-  long sorts_ = 0, taken_ = -1;  ///< sorts before this step, and before the blocks were taken
-  bool fresh_ = false;           ///< blocks have been taken, but not what depends on them
-  std::vector<Node> nodes_;      ///< copy on the host
+  long sorts_ = 0, taken_ = -1;   ///< sorts before this step, and before the blocks were taken
+  std::uint64_t rest_taken_ = 0;  ///< generation of the blocks of sleep's grid then
+  bool fresh_ = false;            ///< blocks have been taken, but not what depends on them
+  bool meets_ = false;            ///< there may be rows of contact, for which the host needs the nodes
+  std::vector<Node> nodes_;       ///< copy on the host
   std::vector<std::uint8_t> marked_;
   std::vector<mpm_kernel::SweepChange> changes_;
   std::vector<double> impulses_;  ///< impulses of nodes at rest, three of each [N s]

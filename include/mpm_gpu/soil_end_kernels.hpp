@@ -6,20 +6,6 @@
 
 namespace mpm_gpu {
 
-/// The impulse that a cell's stress gives to one of its nodes, by its number among them [N s].
-template <class T>
-constexpr void impulse_on(const mpm_kernel::SoilGroup<T, 1>& group, int e, double (&impulse)[3]) {
-  double r[6] = {};
-  for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][0]);
-  const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
-  const double b[3] = {static_cast<double>(group.gradient[0][e][0]), static_cast<double>(group.gradient[1][e][0]),
-                       static_cast<double>(group.gradient[2][e][0])};
-  const double push = static_cast<double>(group.push[0]);
-  impulse[0] = -push * (s.xx * b[0] + s.xy * b[1] + s.xz * b[2]);
-  impulse[1] = -push * (s.xy * b[0] + s.yy * b[1] + s.yz * b[2]);
-  impulse[2] = -push * (s.xz * b[0] + s.yz * b[1] + s.zz * b[2]);
-}
-
 /// Impulses that the stress of a cell gives to components that walls hold, as a part of the sum over cells.
 template <class T, int Dim>
 struct HeldOfCell {
@@ -29,17 +15,24 @@ struct HeldOfCell {
   friend constexpr HeldSums& operator+=(HeldSums& sums, const HeldOfCell& one) {
     const mpm_kernel::SoilGroup<T, 1>& group = one.soil->cell[one.cell];
     if (group.place[0] < 0 || group.mask < 0) return sums;
+    const mpm_kernel::Tension tension = mpm_kernel::tension_in(group, 0);
     for (int e = 0; e < kMembers<Dim>; ++e) {
-      double impulse[3] = {};
-      impulse_on(group, e, impulse);
+      double force[3] = {};
+      mpm_kernel::pull_on(group, 0, tension, e, force);
       for (int a = 0; a < 3; ++a) {
         if (one.soil->mask[one.cell].free[a][e][0] != T(0)) continue;
         const std::uint8_t holder = one.soil->holder[3L * group.node[e][0] + a];
-        if (holder != kAtRestComponent) sums.of[holder][a] += impulse[a];
+        if (holder != kAtRestComponent) sums.of[holder][a] -= static_cast<double>(group.push[0]) * force[a];
       }
     }
     return sums;
   }
+};
+
+template <class T, int Dim>
+struct HeldOfCells {
+  SoilView<T> soil;
+  HeldOfCell<T, Dim> operator()(long cell) const { return {&soil, cell}; }
 };
 
 template <class T, int Dim>
@@ -62,9 +55,11 @@ struct HeldAtRestKernel {
       for (int s = 0; s < soil.soils; ++s) {
         const auto& group = soil.cell[cell_number<Dim>(nodes, s, lower / nodes_of_block(Dim), place)];
         if (group.place[0] < 0) continue;
-        double impulse[3] = {};
-        impulse_on(group, e, impulse);
-        for (int a = 0; a < 3; ++a) sum[a] += soil.holder[3 * node + a] == kAtRestComponent ? impulse[a] : 0.0;
+        double force[3] = {};
+        mpm_kernel::pull_on(group, 0, mpm_kernel::tension_in(group, 0), e, force);
+        for (int a = 0; a < 3; ++a) {
+          if (soil.holder[3 * node + a] == kAtRestComponent) sum[a] -= static_cast<double>(group.push[0]) * force[a];
+        }
       }
     }
     for (int a = 0; a < 3; ++a) to[3 * i + a] = sum[a];
@@ -120,7 +115,7 @@ struct SoilTakeKernel {
   }
 };
 
-/// Sums of a node, and what it is given: `Stores`.
+/// A node after the sweeps, as a part of the sums over nodes.
 template <class T, int Dim>
 struct SolvedNode {
   const SoilView<T>* soil;
@@ -156,6 +151,13 @@ struct SolvedNode {
     });
     return sums;
   }
+};
+
+template <class T, int Dim>
+struct SolvedNodes {
+  SoilView<T> soil;
+  StepView<T> step;
+  SolvedNode<T, Dim> operator()(long n) const { return {&soil, &step, n}; }
 };
 
 template <class T, int Dim>

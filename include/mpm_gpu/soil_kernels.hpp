@@ -85,7 +85,6 @@ struct SoilCellKernel {
   StepView<T> step;
   SoilView<T> soil;
   mpm_kernel::SoilConstants constants;
-  std::uint64_t sets;
   double dt;
   int number;
 
@@ -120,7 +119,7 @@ struct SoilCellKernel {
   mpm_kernel::SoilSums<T> sums_of(const long* corner) const {
     mpm_kernel::SoilSums<T> sums{};
     for (int s = 0; s < step.set_count; ++s) {
-      if ((sets >> s & 1) == 0) continue;
+      if (soil.soil_of_set[s] != number) continue;
       const SetView set = step.sets_there[s];
       for (int e = 0; e < kMembers<kDim>; ++e) {
         if (corner[e] < 0) continue;

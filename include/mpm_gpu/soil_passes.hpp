@@ -47,8 +47,8 @@ struct SoilView {
   T* number[kSoilNumbers];            ///< [particle]
   const std::uint8_t* holder;         ///< [node][world axis]
   mpm_kernel::SweepChange* change;    ///< [block][member], of each block's last sweep
+  const std::int32_t* soil_of_set;    ///< [set]: number of its soil
   double lightest;                    ///< added to a node's mass [kg]
-  double across;                      ///< thickness of a plane [m]; else 1
   int soils;
   bool loads;  ///< forces act that are not in proportion to mass
 };
@@ -86,12 +86,11 @@ struct DeedSums {
 template <class T>
 struct SoilPassTable {
   /// Numbers that the particles of a set give to cells. `soil`: constants, with pointers to the particles.
-  void (*numbers)(Executor&, const StepView<T>&, const SetView&, const mpm_kernel::SoilParticles<T>& soil,
-                  const SoilView<T>&);
+  void (*numbers)(Executor&, const SetView&, const mpm_kernel::SoilParticles<T>& soil, const SoilView<T>&);
   /// Velocities with gravity and loads, and inverse masses.
   void (*load)(Executor&, const StepView<T>&, const SoilView<T>&);
-  /// The cells of a soil, from the sets that are of it: a bit each.
-  void (*cells)(Executor&, const StepView<T>&, const SoilView<T>&, int soil, std::uint64_t sets, double dt,
+  /// The cells of a soil, from the sets that are of it.
+  void (*cells)(Executor&, const StepView<T>&, const SoilView<T>&, int soil, double dt,
                 const mpm_kernel::SoilConstants& constants);
   /// Gives nodes the momentum of the stresses in the blocks of one colour, by their numbers.
   void (*push)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* blocks, long count);

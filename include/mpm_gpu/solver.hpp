@@ -25,10 +25,10 @@
 
 #include "mpm_gpu/cells.hpp"
 #include "mpm_gpu/holds.hpp"
+#include "mpm_gpu/impulses.hpp"
 #include "mpm_gpu/passes.hpp"
 #include "mpm_gpu/put_around.hpp"
 #include "mpm_gpu/stage.hpp"
-#include "mpm_gpu/wall_account.hpp"
 
 namespace mpm_gpu {
 
@@ -75,39 +75,6 @@ struct Method {
   int terms = 1;                                       ///< number of terms of exp(grad v dt)
   bool mixes = false;                     ///< FLIP is mixed with XPIC of a higher order than PIC's (mixture.hpp)
   Counting counting = Counting::nothing;  ///< numbers that are kept of what particles lose in their update
-};
-
-/// Impulses on the material [N s], along the grid's axes, and energies taken from it [J], since the start.
-struct Impulses {
-  /// The wall at a face of the domain, 2 * axis, + 1 for the upper one.
-  struct OfFace {
-    double impulse[3] = {}, exchanged = 0.0;  ///< exchanged: sum over steps of the size of a step's impulse
-    double friction = 0.0, held = 0.0;        ///< taken by friction; of motion that is held up
-  };
-  double gravity[3] = {};
-  OfFace face[6] = {};
-  double averaged = 0.0;  ///< taken by mean stresses
-
-  Impulses& operator+=(const Impulses& other) {
-    for (int c = 0; c < 3; ++c) gravity[c] += other.gravity[c];
-    for (int f = 0; f < 6; ++f) {
-      for (int c = 0; c < 3; ++c) face[f].impulse[c] += other.face[f].impulse[c];
-      face[f].exchanged += other.face[f].exchanged;
-      face[f].friction += other.face[f].friction;
-      face[f].held += other.face[f].held;
-    }
-    averaged += other.averaged;
-    return *this;
-  }
-
-  /// Impulse of all walls.
-  std::array<double, 3> walls() const {
-    std::array<double, 3> sum{};
-    for (const OfFace& one : face) {
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += one.impulse[k];
-    }
-    return sum;
-  }
 };
 
 template <class T>
@@ -189,42 +156,6 @@ class Solver {
   }
 
   // Sums are constexpr, so that kernels may call them, too.
-  /// Sums of the nodes in a step.
-  struct OfNodes {
-    struct OfFace {
-      double given[3];
-      mpm::SurfaceLoss loss;
-    };
-    OfFace face[6];
-    double mass, averaged;
-    constexpr OfNodes& operator+=(const OfNodes& other) {
-      for (int f = 0; f < 6; ++f) {
-        for (int k = 0; k < 3; ++k) face[f].given[k] += other.face[f].given[k];
-        face[f].loss += other.face[f].loss;
-      }
-      mass += other.mass;
-      averaged += other.averaged;
-      return *this;
-    }
-  };
-  /// A node's part of them, of which most have no wall.
-  template <int Dim>
-  struct OfNode {
-    const WallAccount<Dim>* walls;
-    long node;
-    bool carries;
-    friend constexpr OfNodes& operator+=(OfNodes& sum, const OfNode& one) {
-      const NodeView& nodes = one.walls->nodes;
-      if (nodes.averaged != nullptr) sum.averaged += nodes.averaged[one.node];
-      if (!one.carries) return sum;
-      sum.mass += nodes.mass[one.node];
-      one.walls->each(one.node, [&](int face, const double* given, const mpm::SurfaceLoss& loss) {
-        for (int k = 0; k < Dim; ++k) sum.face[face].given[k] += given[k];
-        sum.face[face].loss += loss;
-      });
-      return sum;
-    }
-  };
   /// Faults of the particles in a step, numbers of the first ones; energy that PIC takes.
   struct OfParticles {
     static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -287,7 +218,7 @@ class Solver {
   Buffer<double> moved_[2];                            ///< NodeView::moved at the start and the end of a step
   Buffer<double> held_, held_more_, left_, averaged_;  ///< those of NodeView; empty where it has none
   Buffer<double> increment_;                           ///< empty without XPIC and FMPM
-  Buffer<OfNodes> of_nodes_;
+  Buffer<SumsOfNodes> of_nodes_;
   Buffer<OfParticles> of_particles_;
   Buffer<OfCounted> of_counted_;  ///< empty where nothing is counted
   Buffer<Totals> of_totals_;

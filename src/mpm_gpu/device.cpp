@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "mpm/implicit/implicit_step.hpp"
 #include "mpm/modules/with_precision.hpp"
 #include "mpm_gpu/exchange.hpp"
 #include "mpm_gpu/held_nodes.hpp"
@@ -87,6 +88,7 @@ class RunDevice final : public mpm::Device {
 
  private:
   void begin(const std::vector<ParticleSet>& sets) {
+    if (auto* solve = modules_.modules.template first<mpm::ImplicitSolve<T>>()) solve->use(nullptr);
     run_.reset();  // before the next one takes memory
     run_ = std::make_unique<DeviceRun<T>>(definition_, sets, executor_, &modules_);
   }

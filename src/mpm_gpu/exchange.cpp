@@ -4,11 +4,14 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/mechanics/stress_average.hpp"
 #include "mpm/rules/feature_rules.hpp"
+#include "mpm_gpu/soil_passes.hpp"
 #include "mpm_gpu/stages.hpp"
 
 namespace mpm_gpu {
@@ -166,6 +169,18 @@ std::size_t bytes_of_particle(const ParticleSet& set) {
              sizeof(T);
 }
 
+/// About what the soil of an implicit step takes beside it [bytes], with a node of the table for each particle, as many
+/// as are reserved for a compact body.
+template <class T>
+std::size_t bytes_of_soil(const SimulationDefinition& d) {
+  if (d.method.update != mpm::UpdateScheme::implicit) return 0;
+  std::set<std::string> soils;
+  for (const mpm::DeformableBody& body : d.bodies) soils.insert(body.material);
+  const std::size_t of_cell =
+      sizeof(mpm_kernel::SoilGroup<T, 1>) + sizeof(mpm_kernel::SoilMask<T, 1>) + sizeof(mpm_kernel::SoilMotion<T>);
+  return soils.size() * of_cell + 3 * sizeof(mpm_kernel::SoilNode<T>) + kSoilNumbers * sizeof(T);
+}
+
 /// Number of each id among those that are awake, in the order of ids.
 std::vector<std::uint32_t> numbers_of_awake(const std::vector<ParticleSet>& sets) {
   std::vector<std::uint32_t> numbers;
@@ -179,7 +194,7 @@ std::vector<std::uint32_t> numbers_of_awake(const std::vector<ParticleSet>& sets
 }
 
 template <class T>
-ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
+ParticleStore<T> store_of(const SimulationDefinition& d, const std::vector<ParticleSet>& sets) {
   ParticleStore<T> store;
   long count = 0, first = 0;
   std::size_t bytes = 0;
@@ -191,7 +206,7 @@ ParticleStore<T> store_of(const std::vector<ParticleSet>& sets) {
     return std::any_of(sets.begin(), sets.end(), [&](const ParticleSet& set) { return !(set.*scalar).empty(); });
   };
   const bool any_mass = has(&ParticleSet::masses), any_surface = has(&ParticleSet::surface);
-  Executor::require(count, bytes);
+  Executor::require(count, bytes + bytes_of_soil<T>(d));
   store.id.fit(count);
   const bool any_asleep = std::any_of(sets.begin(), sets.end(), [](const ParticleSet& set) { return set.asleep > 0; });
   if (any_asleep) {
@@ -262,7 +277,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
             return view;
           }(),
           dimensions(definition.geometry), method_of(definition), views_of(sets), pointers_to<T>(laws_),
-          store_of<T>(sets), executor) {
+          store_of<T>(definition, sets), executor) {
   add_stages(solver_, definition, sets, modules);
 }
 

@@ -5,38 +5,32 @@
 namespace mpm_gpu {
 
 template <class T>
-ImplicitSoil<T>::ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets, double across,
+ImplicitSoil<T>::ImplicitSoil(mpm::ImplicitSolve<T>& solve, const std::vector<mpm::ParticleSet>& sets,
                               mpm::HostRest* rest, Solver<T>& solver)
     : solve_(solve),
       rest_(rest),
       solver_(solver),
-      across_(across),
       dim_(solve.grid().layout.dim()),
       passes_(soil_passes(dim_, T())),
       map_(solve.grid().layout),
       rows_(solve.tools(), solve.walls(), passes_, dim_),
       near_tools_(solve.out_of_tools(), solve.bodies(), solve.grid().layout) {
-  const mpm::GridLayout& layout = solve.grid().layout;
   const mpm::SoilBodies& bodies = solve.bodies();
   for (const mpm::ImplicitSoil& soil : bodies.soils) constants_.push_back(soil.constants());
-  sets_of_.assign(bodies.soils.size(), 0);
+  std::vector<std::int32_t> soil_of_set;
   long particles = 0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const auto soil = static_cast<std::size_t>(bodies.list[s].soil);
-    sets_of_[soil] |= std::uint64_t{1} << s;
+    soil_of_set.push_back(bodies.list[s].soil);
     mpm_kernel::SoilParticles<T> shape{};
-    mpm::describe(bodies.soils[soil], shape);
-    for (int k = 0; k < dim_; ++k) {
-      shape.half[k] = sets[s].half[k];
-      shape.origin[k] = layout.origin(k);
-      shape.inverse_cell[k] = layout.inverse_cell(k);
-    }
+    mpm::describe(bodies.soils[static_cast<std::size_t>(soil_of_set.back())], shape);
     shape.mass = sets[s].mass;
     shapes_.push_back(shape);
     particles += sets[s].awake();
   }
   for (Buffer<T>& one : number_) one.fit(particles);
-  solve.use(*this);
+  soil_of_set_.fit(static_cast<long>(soil_of_set.size()));
+  soil_of_set_.upload(soil_of_set);
+  solve.use(this);
 }
 
 template <class T>
@@ -71,9 +65,11 @@ void ImplicitSoil<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step
   if (hook != mpm::Hook::momentum_updated) return;
   run_ = &run;
   step_ = step;
-  if (sorts_ != taken_) {
+  const std::uint64_t rest = rest_ == nullptr ? 0 : rest_->fields().front()->blocks.generation();
+  if (sorts_ != taken_ || rest != rest_taken_) {
     map_.take_blocks(run, step, passes_, solve_.grid(), rest_);
     taken_ = sorts_;
+    rest_taken_ = rest;
     fresh_ = true;
   }
   solve_.solve_step(start_, step.settings.dt);
@@ -91,7 +87,7 @@ SoilView<T> ImplicitSoil<T>::view() {
   view.holder = map_.holders();
   view.change = change_.data();
   view.lightest = solve_.lightest();
-  view.across = across_;
+  view.soil_of_set = soil_of_set_.data();
   view.soils = static_cast<int>(constants_.size());
   view.loads = solve_.loads();
   return view;
@@ -104,7 +100,6 @@ mpm_kernel::SoilParticles<T> ImplicitSoil<T>::particles_of(int body) const {
   const mpm::SoilBodies& bodies = solve_.bodies();
   const auto number = static_cast<std::size_t>(bodies.list[static_cast<std::size_t>(body)].soil);
   const mpm::ImplicitSoil& soil = bodies.soils[number];
-  for (int k = 0; k < 3; ++k) view.x[k] = of.x[k];
   for (int i = 0; i < 9; ++i) view.f[i] = of.f[i];
   for (int i = 0; i < 6; ++i) view.tau[i] = of.tau[i];
   view.strain = of.history[soil.strain_at];
@@ -121,25 +116,28 @@ void ImplicitSoil<T>::begin(double dt) {
     nodes_.assign(static_cast<std::size_t>(solve_.soil_grid().numbers()), Node{});
     const Node none{};
     node_.upload(&none, 1, map_.none());
+    meets_ = solve_.tools().any() || !solve_.soil_grid().frictional().empty();
     fresh_ = false;
   }
   const SoilView<T> soil = view();
   passes_.load(*run_, step_, soil);
-  for (int s = 0; s < step_.set_count; ++s) passes_.numbers(*run_, step_, step_.sets[s], particles_of(s), soil);
+  for (int s = 0; s < step_.set_count; ++s) passes_.numbers(*run_, step_.sets[s], particles_of(s), soil);
   for (std::size_t s = 0; s < constants_.size(); ++s)
-    passes_.cells(*run_, step_, soil, static_cast<int>(s), sets_of_[s], dt, constants_[s]);
+    passes_.cells(*run_, step_, soil, static_cast<int>(s), dt, constants_[s]);
   for (int c = 0; c < 1 << dim_; ++c) passes_.push(*run_, step_, soil, map_.blocks_of(c), map_.count_of(c));
   download_nodes();
 }
 
 template <class T>
 void ImplicitSoil<T>::download_nodes() {
+  if (!meets_) return;
   passes_.pack(*run_, view(), map_.all(), map_.count(), node_room_.data());
   node_room_.download(nodes_.data(), map_.count());
 }
 
 template <class T>
 void ImplicitSoil<T>::take_rows() {
+  if (!meets_) return;
   node_room_.upload(nodes_.data(), map_.count());
   passes_.unpack(*run_, view(), map_.all(), map_.count(), node_room_.data());
   rows_.take(map_, solve_.soil_grid());
@@ -251,8 +249,9 @@ bool ImplicitSoil<T>::put_out() {
 template <class T>
 std::size_t ImplicitSoil<T>::bytes() const {
   std::size_t sum = map_.bytes() + rows_.bytes() + node_.bytes() + before_.bytes() + node_room_.bytes() +
-                    cell_.bytes() + mask_.bytes() + motion_.bytes() + marked_there_.bytes() + impulse_room_.bytes() +
-                    change_.bytes() + change_room_.bytes() + of_held_.bytes() + of_deeds_.bytes();
+                    cell_.bytes() + mask_.bytes() + soil_of_set_.bytes() + motion_.bytes() + marked_there_.bytes() +
+                    impulse_room_.bytes() + change_.bytes() + change_room_.bytes() + of_held_.bytes() +
+                    of_deeds_.bytes();
   for (const Buffer<T>& one : number_) sum += one.bytes();
   return sum;
 }

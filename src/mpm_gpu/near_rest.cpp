@@ -133,7 +133,10 @@ void NearRest<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
       copies_.upload_for_strain(run, step, packed(near.velocity, numbers_));
       break;
     case mpm::Hook::momentum_updated:
-      if (!any) break;
+      if (!any) {
+        rest_.act(hook);  // those that a tool wakes have no border where all is asleep
+        break;
+      }
       get(run, step, nodes.velocity, near.velocity);
       get(run, step, nodes.acceleration, near.force);
       rest_.act(hook);

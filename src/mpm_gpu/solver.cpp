@@ -264,31 +264,15 @@ void Solver<T>::account(double dt) {
                                dt,
                                kStrainAtStart[static_cast<int>(method_.update)]};
   if (walls.nodes.nodes == 0) return;  // all is asleep
-  run_.reduce_there<OfNodes>(
+  run_.reduce_there<SumsOfNodes>(
       "gpu: accounts", walls.nodes.nodes,
       [=](long i) {
-        return OfNode<Dim>{&walls, i, walls.nodes.mass[i] > walls.grid.least_mass};
+        return SumsOfNode<Dim>{&walls, i, walls.nodes.mass[i] > walls.grid.least_mass};
       },
       of_nodes_);
-  const OfNodes* all = of_nodes_.data();
-  Impulses* sums = impulses_there_.data();
-  const GridView grid = grid_;
-  run_.for_each("gpu: accounts", 1, [=](long) {
-    for (int c = 0; c < Dim; ++c) sums->gravity[c] += all->mass * grid.gravity[c] * dt;
-    for (int f = 0; f < 2 * Dim; ++f) {
-      const auto& [given, loss] = all->face[f];
-      Impulses::OfFace& face = sums->face[f];
-      double square = 0.0;
-      for (int c = 0; c < Dim; ++c) {
-        face.impulse[c] += given[c];
-        square += given[c] * given[c];
-      }
-      face.exchanged += __builtin_sqrt(square);
-      face.friction += loss.friction;
-      face.held += loss.held;
-    }
-    sums->averaged += all->averaged;
-  });
+  AddImpulses<Dim> add{of_nodes_.data(), impulses_there_.data(), {}, dt};
+  for (int c = 0; c < Dim; ++c) add.gravity[c] = grid_.gravity[c];
+  run_.for_each("gpu: accounts", 1, add);
   counted_ = true;
 }
 

@@ -49,7 +49,7 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
   if (method.update == mpm::UpdateScheme::implicit) {
     auto* solve = modules == nullptr ? nullptr : modules->modules.template first<mpm::ImplicitSolve<T>>();
     if (solve == nullptr) throw GpuError("gpu: implicit steps are those of a simulation's modules");
-    solver.add(std::make_unique<ImplicitSoil<T>>(*solve, sets, d.across(), modules->rest, solver));
+    solver.add(std::make_unique<ImplicitSoil<T>>(*solve, sets, modules->rest, solver));
   } else if (modules != nullptr && modules->contact != nullptr) {
     solver.let_walls_act_again();
     solver.add(std::make_unique<NearBodies<T>>(*modules->contact, solver.grid()));

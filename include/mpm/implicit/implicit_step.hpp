@@ -68,8 +68,8 @@ class ImplicitSolve {
   virtual double lightest() const = 0;
   /// As ImplicitSettings::loads.
   virtual bool loads() const = 0;
-  /// Lets steps move this soil from here on, which outlives them, in place of that of this processor.
-  virtual void use(SoilField<T>& field) = 0;
+  /// Lets steps move this soil from here on, in place of that of this processor; null: none until the next.
+  virtual void use(SoilField<T>* field) = 0;
   /// From velocities with gravity and loads to those of the step's end.
   virtual void solve_step(double start, double dt) = 0;
 };

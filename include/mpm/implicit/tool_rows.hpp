@@ -59,6 +59,8 @@ class ToolRows {
   /// nodes.
   /// @throws FunctionError for a law of contact that is not possible
   void find(std::vector<Node>& nodes, double start, double dt);
+  /// True if there are bodies, which may have rows.
+  bool any() const { return !bodies_.empty(); }
   /// Forgets the rows of the last step; blocks have none until find().
   void clear() {
     rows_.clear();

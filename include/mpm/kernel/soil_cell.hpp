@@ -21,6 +21,23 @@ constexpr Tension tension_of(const double* r) {
   return {-(p + d - q), -(p - d - q), -(p + 2.0 * q), -kOverRoot2 * r[3], -kOverRoot2 * r[4], -kOverRoot2 * r[5]};
 }
 
+/// Tension of the cell in a lane.
+template <class T, int Cells>
+constexpr Tension tension_in(const SoilGroup<T, Cells>& group, int lane) {
+  double r[6] = {};
+  for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][lane]);
+  return tension_of(r);
+}
+/// The force by a unit of volume on one of the cell's nodes from such a tension, towards the cell; in rings that along
+/// y, of the hoop stress, is one along r [N/m^3].
+template <class T, int Cells>
+constexpr void pull_on(const SoilGroup<T, Cells>& group, int lane, const Tension& s, int e, double (&force)[3]) {
+  const double x = group.gradient[0][e][lane], y = group.gradient[1][e][lane], z = group.gradient[2][e][lane];
+  force[0] = s.xx * x + s.xy * y + s.xz * z;
+  force[1] = s.xy * x + s.yy * y + s.yz * z;
+  force[2] = s.xz * x + s.yz * y + s.zz * z;
+}
+
 /// c cos(phi) [Pa], of a round cone xi c, of metal its yield stress over sqrt(3); `left`: mean over a cell of 1 -
 /// per_strain times plastic strain.
 inline double cohesion_at(const SoilConstants& soil, double left) {

@@ -88,7 +88,7 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
     return reason;
   }
 
-  void step_ended() override { sorts_ = field_->put_out(); }
+  void step_ended() override { sorts_ = field_ != nullptr && field_->put_out(); }
   bool needs_sort() const override { return sorts_; }
   void check_put(const RigidBody& body) const override { tools_.check_overlaps(body); }
   void body_put(const RigidBody& body) override { tools_.forget(body); }
@@ -104,9 +104,9 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
   const OutOfTools& out_of_tools() const override { return out_; }
   double lightest() const override { return lightest_; }
   bool loads() const override { return settings_.loads; }
-  void use(SoilField<T>& field) override {
+  void use(SoilField<T>* field) override {
     own_field_.reset();
-    field_ = &field;
+    field_ = field;
   }
   void solve_step(double start, double dt) override {
     soil_grid_.rebuild();
@@ -306,7 +306,7 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
   WallRows<T> walls_;
   HeldImpulses held_;
   std::unique_ptr<HostField<T>> own_field_;  ///< null where a device has the soil
-  SoilField<T>* field_;                      ///< soil that the steps move
+  SoilField<T>* field_;                      ///< soil that the steps move; null where a device has lost it
   MomentumRestart restart_;
   double lightest_ = 0.0;        ///< [kg]
   ImpulseAccount light_;         ///< impulse that light nodes were not given

@@ -245,16 +245,12 @@ void SoilCells<T>::add_to_held(HeldImpulses& held) const {
     if (group.mask < 0) continue;
     for (int lane = 0; lane < mpm_kernel::kGroupCells; ++lane) {
       if (group.place[lane] < 0) continue;
-      double r[6];
-      for (int i = 0; i < 6; ++i) r[i] = static_cast<double>(group.stress[i][lane]);
-      const mpm_kernel::Tension s = mpm_kernel::tension_of(r);
+      const mpm_kernel::Tension tension = mpm_kernel::tension_in(group, lane);
       for (int e = 0; e < mpm_kernel::kCellNodes; ++e) {
         const int node = group.node[e][lane];
         if (!grid_.held(node)) continue;
-        const double x = group.gradient[0][e][lane], y = group.gradient[1][e][lane], z = group.gradient[2][e][lane];
-        // By a unit of volume, with tension positive.
-        double force[3] = {s.xx * x + s.xy * y + s.xz * z, s.xy * x + s.yy * y + s.yz * z,
-                           s.xz * x + s.yz * y + s.zz * z};
+        double force[3];
+        mpm_kernel::pull_on(group, lane, tension, e, force);
         if (grid_.rings()) force[0] += std::exchange(force[1], 0.0);
         for (int k = 0; k < 3; ++k) {
           const std::uint8_t holder = grid_.holder(node, k);

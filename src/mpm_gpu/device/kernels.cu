@@ -87,6 +87,8 @@ void each_of_soil() {
   (void)&launch<SoilStoreKernel<T, kDim>>;
   (void)&launch<HeldAtRestKernel<T, kDim>>;
   (void)&launch<StoreAtRestKernel<T, kDim>>;
+  (void)&launch_sum<HeldOfCells<T, kDim>, HeldSums>;
+  (void)&launch_sum<SolvedNodes<T, kDim>, DeedSums>;
   if constexpr (kDim == 2) return;
   (void)&launch<SoilGoOnKernel<T>>;
   (void)&launch<RowsGoOnKernel<T>>;
@@ -94,6 +96,7 @@ void each_of_soil() {
   (void)&launch<ImpulsesKernel<T>>;
   (void)&launch<PackKernel<T>>;
   (void)&launch<UnpackKernel<T>>;
+  (void)&launch<OwnersKernel<T>>;
 }
 
 /// False for a user's law, which is code of the host.

@@ -2,9 +2,9 @@
 #include "mpm_gpu/device/host_headers.hpp"
 
 #pragma clang force_cuda_host_device begin
+#include "mpm_gpu/impulses.hpp"
 #include "mpm_gpu/taken.hpp"
 #include "mpm_gpu/views.hpp"
-#include "mpm_gpu/wall_account.hpp"
 #pragma clang force_cuda_host_device end
 
 #include "../solver.cpp"

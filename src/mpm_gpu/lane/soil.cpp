@@ -10,17 +10,17 @@ struct SoilPassesOf {
   using Step = StepView<T>;
   using Node = mpm_kernel::SoilNode<T>;
 
-  static void numbers(Executor& run, const Step&, const SetView& set, const mpm_kernel::SoilParticles<T>& particles,
+  static void numbers(Executor& run, const SetView& set, const mpm_kernel::SoilParticles<T>& particles,
                       const Soil& soil) {
     run.for_each("gpu: particles to cells", set.count, SoilNumbersKernel<T, Geometry>{particles, soil, set.first});
   }
   static void load(Executor& run, const Step& step, const Soil& soil) {
     run.for_each("gpu: nodes of the soil", step.nodes.nodes, SoilLoadKernel<T, kDim>{step, soil});
   }
-  static void cells(Executor& run, const Step& step, const Soil& soil, int number, std::uint64_t sets, double dt,
+  static void cells(Executor& run, const Step& step, const Soil& soil, int number, double dt,
                     const mpm_kernel::SoilConstants& constants) {
     run.for_each("gpu: particles to cells", step.nodes.nodes,
-                 SoilCellKernel<T, Geometry>{step, soil, constants, sets, dt, number});
+                 SoilCellKernel<T, Geometry>{step, soil, constants, dt, number});
   }
   static void push(Executor& run, const Step& step, const Soil& soil, const std::int32_t* blocks, long count) {
     run.template in_turns<kTeam>("gpu: momentum of stresses", count, kTeam * soil.soils,

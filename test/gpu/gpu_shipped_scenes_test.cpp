@@ -93,7 +93,7 @@ TEST(GpuShippedScenes, RunAsTheyAreShipped) {
 
 // The blade reaches soil that has slept and pushes it for 0.1 s: the same steps and sweeps, and the force on it. Cost:
 // 80 s.
-TEST(FullGpuShippedScenes, BladePushesAsOnTheProcessor) {
+TEST(GpuShippedScenes, BladePushesAsOnTheProcessor) {
   const mpm::SimulationDefinition d = mpm::build(mpm::load_scene("blade_in_soil"));
   Simulation here(d, options(false)), there(d, options(true));
   double most = 0.0;

@@ -63,7 +63,7 @@ class LiquidVolume final : public Stage<T> {
   std::vector<mpm::Law> laws_;
   double cell_;
   const Passes<T>& passes_;
-  std::vector<RelaxPass<T>> relax_;  ///< of each set; null of what is no liquid
+  std::vector<RelaxPass<T>> relax_;  ///< passes of each set; null where it is no liquid
   double waited_ = 0.0;              ///< time for which it acts in this step; 0 where it does not [s]
   Buffer<double> volume_;            ///< volumes over mass of particles; then the energies that they lose
   Buffer<double> fullness_;          ///< fullness of nodes

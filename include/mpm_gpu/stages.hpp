@@ -11,8 +11,8 @@
 
 namespace mpm_gpu {
 
-/// Adds them. `sets`: of an assembled Simulation of this definition, `laws` those of each. `modules`: those of the simulation whose steps the
-/// solver takes, which outlive it; null without one.
+/// Adds them. `sets`: of an assembled Simulation of this definition, `laws` those of each. `modules`: those of the
+/// simulation whose steps the solver takes, which outlive it; null without one.
 template <class T>
 void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& definition,
                 const std::vector<mpm::ParticleSet>& sets, const std::vector<mpm::Law>& laws,

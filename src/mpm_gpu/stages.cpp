@@ -50,8 +50,8 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
     for (int k = 0; k < layout.dim(); ++k) cell *= layout.cell(k);
     long awake = 0;
     for (const mpm::ParticleSet& set : sets) awake += set.awake();
-    solver.add(std::make_unique<LiquidVolume<T>>(correction, laws, layout.dim(), d.across() * cell, awake,
-                                                 solver.passes()));
+    solver.add(
+        std::make_unique<LiquidVolume<T>>(correction, laws, layout.dim(), d.across() * cell, awake, solver.passes()));
   }
   std::unique_ptr<NearRest<T>> rest;
   if (modules != nullptr && modules->rest != nullptr) {

@@ -1,9 +1,8 @@
 // Liquids in simulations whose steps a device takes: dams that break in plane strain and in space, between walls that
-// rub, beside solids, soil and a tool, against runs on the processor. Cost: SECONDS.
+// rub, beside solids, soil and a tool, against runs on the processor. Cost: 6 s.
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <memory>
 
 #include "gpu_runs.hpp"
 #include "mpm/rigid/surface.hpp"
@@ -15,37 +14,22 @@ using mpm::TransferKind;
 using mpm::UpdateScheme;
 using mpm::Vec3;
 
-/// Waves cross a metre in 1/30 s. A sync period is some ten steps.
-mpm::MaterialDefinition water(const std::string& name) {
-  mpm::NewtonianFluidDefinition law;
-  law.bulk_modulus = 9e5;
-  law.viscosity = 0.5;
-  return {name, 1000.0, law};
-}
-
-/// Water stands in a corner and falls to its open side: walls rub below and behind it.
+/// A sync period is some ten steps.
 SimulationDefinition dam(mpm::GeometryKind geometry) {
-  SimulationDefinition d = gpu_scenes::empty_scene(geometry, mpm::Precision::float64);
+  SimulationDefinition d = gpu_scenes::dam(mpm::Precision::float64, geometry);
   d.time.sync = 15'000'000;
-  for (const int face : {0, 4}) {
-    d.walls[face].kind = mpm::WallKind::frictional;
-    d.walls[face].friction.coefficient = 0.1;
-  }
-  d.materials = {water("water")};
   return d;
 }
 SimulationDefinition dam_in_plane(UpdateScheme update = UpdateScheme::usf, TransferKind transfer = TransferKind::flip) {
   SimulationDefinition d = dam(mpm::GeometryKind::plane_strain);
   d.method.update = update;
   d.method.transfer.kind = transfer;
-  d.bodies = {gpu_scenes::block(d, "water", {0.0, 0.0, 0.0}, {6.0, 0.0, 10.0}, {1.5, 0.0, -0.5})};
   return d;
 }
 SimulationDefinition dam_in_space(UpdateScheme update = UpdateScheme::usf, TransferKind transfer = TransferKind::flip) {
   SimulationDefinition d = dam(mpm::GeometryKind::solid);
   d.method.update = update;
   d.method.transfer.kind = transfer;
-  d.bodies = {gpu_scenes::block(d, "water", {0.0, 0.0, 0.0}, {4.0, 4.0, 5.0}, {1.0, 0.7, -0.5})};
   return d;
 }
 
@@ -68,11 +52,12 @@ SimulationDefinition beside_sand() {
   d.bodies.push_back(gpu_scenes::block(d, "sand", {6.0, 0.0, 0.0}, {12.0, 0.0, 6.0}, Vec3::Zero()));
   return d;
 }
-/// A box pushes the foot of the water.
+/// A box pushes the foot of the water. No row of particles ends on nodes to the last bit, where round-off decides
+/// whether the next nodes have any mass for contact to act on.
 SimulationDefinition pushed_by_tool(mpm::GeometryKind geometry) {
   SimulationDefinition d = dam(geometry);
   d.contact.method = mpm::ContactMethod::nodes;
-  d.bodies = {gpu_scenes::block(d, "water", {4.0, 0.0, 0.0}, {10.0, 4.0, 6.0}, Vec3::Zero())};
+  d.bodies = {gpu_scenes::block(d, "water", {4.1, 0.1, 0.1}, {9.1, 3.1, 5.1}, Vec3::Zero())};
   mpm::RigidBodyDefinition plate;
   plate.name = "plate";
   plate.surface = mpm::make_box({0.35, 2.0, 0.7});
@@ -91,6 +76,10 @@ void expect_run_alike(const SimulationDefinition& d, double bound = kRoundOff) {
   const mpm::EnergyReport energy = there.state().energy;
   EXPECT_GT(std::abs(energy.of("volume correction")), 1e-6 * energy.whole());
   EXPECT_GT(here.state().step.steps, 8U * kPeriods);
+  if (d.rigid_bodies.empty()) return;
+  const mpm::ContactReport a = here.take_contact(0), b = there.take_contact(0);
+  EXPECT_GT(a.nodes, 0);
+  EXPECT_LT((a.impulse - b.impulse).norm(), bound * a.impulse.norm());
 }
 
 TEST(GpuLiquid, DamsBreakInPlaneStrain) {
@@ -122,7 +111,7 @@ TEST(GpuLiquid, OpenAndPeriodicFaces) {
   d.walls[0].kind = mpm::WallKind::none;
   d.grid.max.y() = 0.8;
   d.walls[2].kind = d.walls[3].kind = mpm::WallKind::periodic;
-  d.bodies = {gpu_scenes::block(d, "water", {0.0, 0.0, 0.0}, {3.0, 8.0, 4.0}, {1.0, 0.2, -0.5})};
+  d.bodies = {gpu_scenes::block(d, "water", {0.0, 0.0, 0.0}, {2.0, 8.0, 3.0}, {1.0, 0.2, -0.5})};
   expect_run_alike(d);
 }
 TEST(GpuLiquid, BesideRubberAndSand) {
@@ -130,16 +119,8 @@ TEST(GpuLiquid, BesideRubberAndSand) {
   expect_run_alike(beside_sand());
 }
 TEST(GpuLiquid, PushedByATool) {
-  for (const auto geometry : {mpm::GeometryKind::plane_strain, mpm::GeometryKind::solid}) {
-    const SimulationDefinition d = pushed_by_tool(geometry);
-    expect_run_alike(d);
-    Simulation here(d, options(false)), there(d, options(true));
-    advance(here, kPeriods);
-    advance(there, kPeriods);
-    const mpm::ContactReport a = here.take_contact(0), b = there.take_contact(0);
-    EXPECT_GT(a.nodes, 0);
-    EXPECT_LT((a.impulse - b.impulse).norm(), kRoundOff * a.impulse.norm());
-  }
+  expect_run_alike(pushed_by_tool(mpm::GeometryKind::plane_strain));
+  expect_run_alike(pushed_by_tool(mpm::GeometryKind::solid));
 }
 TEST(GpuLiquid, InSingle) {
   SimulationDefinition d = dam_in_plane(UpdateScheme::usavg);

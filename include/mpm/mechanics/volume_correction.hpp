@@ -18,8 +18,8 @@
 // lets them together until their spacing is right. The rate is that of the flow which makes the error: a fluid at rest
 // is left alone, and so is a sound wave but for a term of second order in its amplitude.
 //
-// It acts in one step of Clock::kEvery, for the time since it last did. kernel/volume_rule.hpp has the formulas. Momentum does not change; the elastic energy that
-// particles lose by it is booked.
+// It acts in one step of Clock::kEvery, for the time since it last did. kernel/volume_rule.hpp has the formulas.
+// Momentum does not change; the elastic energy that particles lose by it is booked.
 //
 // Weak: c of a random arrangement varies by some per cent, so a surface that is stirred hard lies up to about a per
 // cent too high. A cell that a tool fills in part counts as one at a surface. Beside the axis of an axisymmetric scene

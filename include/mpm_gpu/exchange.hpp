@@ -14,8 +14,7 @@
 
 namespace mpm_gpu {
 
-/// The sentence of the table that refuses a scene's steps there; empty where they run. It leaves out what steps can,
-/// but a whole simulation cannot have yet.
+/// The sentence of the table that refuses a scene's steps there; empty where they run.
 std::string refused(const mpm::SimulationDefinition& definition);
 
 /// A run of this library that begins with the particles of a simulation, and its laws.

@@ -13,6 +13,7 @@
 #include "mpm/kernel/survey.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm_gpu/average_pass.hpp"
+#include "mpm_gpu/liquid_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"
 #include "mpm_gpu/passes.hpp"
 #include "mpm_gpu/totals_pass.hpp"
@@ -103,6 +104,14 @@ struct LawPasses<T, Geometry, std::variant<Laws...>> {
     else
       return nullptr;
   }
+  template <class LawType>
+  static constexpr RelaxPass<T> relaxes() {
+    if constexpr (LawType::kMatter == mpm::Matter::liquid)
+      return &RelaxKernel<T, Geometry, LawType>::run;
+    else
+      return nullptr;
+  }
+  static constexpr RelaxPass<T> kRelaxes[] = {relaxes<Laws>()...};
   static constexpr AveragePass<T> kAverages[] = {averages<Laws>()...};
   static constexpr LawPass<T> kPasses[] = {pass<Laws>()...};
   static constexpr RatePass<T> kRates[] = {rates<Laws>()...};

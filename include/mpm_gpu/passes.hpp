@@ -39,6 +39,12 @@ struct Passes {
   void (*hold)(Executor&, const StepView<T>&, const HeldView&, HeldPart);
   /// Puts particles outside the grid back (leaving_passes.hpp).
   void (*put_back)(Executor&, const StepView<T>&, double* numbers);
+
+  // Volume of liquids (liquid_passes.hpp): volumes over mass of the particles of one set, that of `start` or times J;
+  // fullness of nodes from those; what the particles of one set see of it, in the place of gradients.
+  void (*volumes)(Executor&, const StepView<T>&, int set, double start, bool stays, double* volume);
+  void (*fullness)(Executor&, const StepView<T>&, const double* volume, double cell, double* fullness);
+  void (*fullness_to_particles)(Executor&, const StepView<T>&, int set, const double* fullness);
 };
 
 // The same for any shape function and precision (prescribed_passes.hpp, leaving_passes.hpp).
@@ -63,6 +69,11 @@ using RatePass = void (*)(Executor&, const StepView<T>&, int set, const void* la
 template <class T>
 using TotalsPass = Totals (*)(Executor&, const StepView<T>&, int set, const void* law, Buffer<Totals>& room);
 
+/// Relaxes J of the particles of one liquid over the time `waited` [s]; `law` is on the host. `lost`: energy that each
+/// particle loses, at its number [J].
+template <class T>
+using RelaxPass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double waited, double* lost);
+
 /// In three dimensions or, with two axes, plane strain. The last argument tells the precision.
 const Passes<double>& passes(int dim, Shape shape, double);
 const Passes<float>& passes(int dim, Shape shape, float);
@@ -76,5 +87,8 @@ RatePass<double> rate_pass(int dim, std::size_t law, double);
 RatePass<float> rate_pass(int dim, std::size_t law, float);
 TotalsPass<double> totals_pass(int dim, std::size_t law, double);
 TotalsPass<float> totals_pass(int dim, std::size_t law, float);
+/// Null for a law that is no liquid's.
+RelaxPass<double> relax_pass(int dim, std::size_t law, double);
+RelaxPass<float> relax_pass(int dim, std::size_t law, float);
 
 }  // namespace mpm_gpu

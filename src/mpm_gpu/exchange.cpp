@@ -20,10 +20,6 @@ namespace {
 using mpm::ParticleSet;
 using mpm::SimulationDefinition;
 
-/// Features that steps have here, but a whole simulation has not yet: they have a state that no checkpoint holds, or
-/// act beside steps.
-constexpr std::array kOfRuns = {mpm::Feature::liquids};
-
 Face face_of(mpm::WallKind kind) {
   switch (kind) {
     case mpm::WallKind::none:
@@ -256,8 +252,7 @@ ParticleStore<T> store_of(const SimulationDefinition& d, const std::vector<Parti
 std::string refused(const SimulationDefinition& d) {
   const mpm::RunKind kind{1, true};
   for (const mpm::FeatureRule& rule : mpm::feature_rules()) {
-    const bool of_runs = std::find(kOfRuns.begin(), kOfRuns.end(), rule.beside) != kOfRuns.end();
-    if (rule.feature != mpm::Feature::device || of_runs) continue;
+    if (rule.feature != mpm::Feature::device) continue;
     if (const auto who = find_feature(rule.beside, d, kind)) {
       return mpm::BrokenRule{&rule, "", *who}.why() + "; " + rule.remedy;
     }
@@ -278,7 +273,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
           }(),
           dimensions(definition.geometry), method_of(definition), views_of(sets), pointers_to<T>(laws_),
           store_of<T>(definition, sets), executor) {
-  add_stages(solver_, definition, sets, modules);
+  add_stages(solver_, definition, sets, laws_, modules);
 }
 
 template <class T>

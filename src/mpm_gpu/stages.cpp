@@ -1,5 +1,6 @@
 #include "mpm_gpu/stages.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "mpm_gpu/error.hpp"
 #include "mpm_gpu/implicit_soil.hpp"
 #include "mpm_gpu/leaving.hpp"
+#include "mpm_gpu/liquid_volume.hpp"
 #include "mpm_gpu/loads.hpp"
 #include "mpm_gpu/mixture.hpp"
 #include "mpm_gpu/near_bodies.hpp"
@@ -37,10 +39,20 @@ Counting counting_of(const mpm::MethodDefinition& method) {
 
 template <class T>
 void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std::vector<mpm::ParticleSet>& sets,
-                const mpm::RunModules* modules) {
+                const std::vector<mpm::Law>& laws, const mpm::RunModules* modules) {
   const mpm::GridLayout layout(dimensions(d.geometry), d.grid.cell, d.grid.min, d.grid.max);
   mpm::Mechanics* mechanics = modules == nullptr ? nullptr : &modules->mechanics;
   const mpm::MethodDefinition& method = d.method;
+  const auto is_liquid = [](const mpm::Law& law) { return traits_of(law).matter == mpm::Matter::liquid; };
+  if (std::any_of(laws.begin(), laws.end(), is_liquid)) {  // first, as it changes the stress that others see
+    auto* correction = modules == nullptr ? nullptr : modules->modules.template first<mpm::VolumeCorrection>();
+    double cell = 1.0;
+    for (int k = 0; k < layout.dim(); ++k) cell *= layout.cell(k);
+    long awake = 0;
+    for (const mpm::ParticleSet& set : sets) awake += set.awake();
+    solver.add(
+        std::make_unique<LiquidVolume<T>>(correction, laws, layout.dim(), d.across() * cell, awake, solver.passes()));
+  }
   std::unique_ptr<NearRest<T>> rest;
   if (modules != nullptr && modules->rest != nullptr) {
     rest = std::make_unique<NearRest<T>>(*modules->rest, solver.grid(), reach_of(method.shape));
@@ -89,8 +101,8 @@ void add_stages(Solver<T>& solver, const mpm::SimulationDefinition& d, const std
 }
 
 template void add_stages(Solver<double>&, const mpm::SimulationDefinition&, const std::vector<mpm::ParticleSet>&,
-                         const mpm::RunModules*);
+                         const std::vector<mpm::Law>&, const mpm::RunModules*);
 template void add_stages(Solver<float>&, const mpm::SimulationDefinition&, const std::vector<mpm::ParticleSet>&,
-                         const mpm::RunModules*);
+                         const std::vector<mpm::Law>&, const mpm::RunModules*);
 
 }  // namespace mpm_gpu

@@ -33,8 +33,9 @@ void* counted(void* memory) {
 namespace gpu_allocation_test {
 
 TEST(GpuAllocation, NoneInAStepAfterTheFirst) {
-  for (const auto scene : {gpu_scenes::falling_block, gpu_scenes::column_apic, gpu_scenes::column_friction,
-                           gpu_scenes::column_mixture, gpu_scenes::column_damped, gpu_scenes::block_loaded}) {
+  for (const auto scene :
+       {gpu_scenes::falling_block, gpu_scenes::column_apic, gpu_scenes::column_friction, gpu_scenes::column_mixture,
+        gpu_scenes::column_damped, gpu_scenes::block_loaded, gpu_scenes::dam_in_plane}) {
     const mpm::SimulationDefinition d = scene(mpm::Precision::float64);
     const double dt = gpu_scenes::step_of(d);
     mpm::SimulationProbe solver(d);

@@ -163,4 +163,24 @@ inline mpm::SimulationDefinition blocks_leaving(mpm::Precision precision) {
   return d;
 }
 
+/// Water stands in a corner and falls to its open side: walls rub below it and behind it.
+inline mpm::SimulationDefinition dam(mpm::Precision precision, mpm::GeometryKind geometry) {
+  mpm::SimulationDefinition d = empty_scene(geometry, precision);
+  for (const int face : {0, 4}) {
+    d.walls[face].kind = mpm::WallKind::frictional;
+    d.walls[face].friction.coefficient = 0.1;
+  }
+  mpm::NewtonianFluidDefinition law;
+  law.bulk_modulus = 9e5;
+  law.viscosity = 0.5;
+  d.materials = {{"water", 1000.0, law}};
+  const bool solid = geometry == mpm::GeometryKind::solid;
+  const Vec3 to = solid ? Vec3(3.0, 3.0, 4.0) : Vec3(6.0, 0.0, 10.0);
+  d.bodies = {block(d, "water", Vec3::Zero(), to, {solid ? 1.0 : 1.5, solid ? 0.7 : 0.0, -0.5})};
+  return d;
+}
+inline mpm::SimulationDefinition dam_in_plane(mpm::Precision precision) {
+  return dam(precision, mpm::GeometryKind::plane_strain);
+}
+
 }  // namespace gpu_scenes

@@ -196,11 +196,8 @@ void expect_refused(const SimulationDefinition& d, const std::string& what) {
 }
 TEST(GpuSimulation, RefusesByName) {
   SimulationDefinition d = scene(gpu_scenes::column);
-  mpm::NewtonianFluidDefinition water;
-  water.bulk_modulus = 2e6;
-  water.viscosity = 1e-3;
-  d.materials.front().law = water;
-  expect_refused(d, "liquids ('");
+  d.method.average_dilatation = true;
+  expect_refused(d, "averaged dilatation do not go together: ");
 }
 
 }  // namespace gpu_simulation_test

@@ -108,6 +108,8 @@ TEST(GpuStep, MetalAgreesInDouble) { expect_agreement<double>(gpu_scenes::metal,
 TEST(GpuStep, MetalAgreesInSingle) { expect_agreement<float>(gpu_scenes::metal, 1e-5); }
 TEST(GpuStep, TwoBodiesAgreeInDouble) { expect_agreement<double>(gpu_scenes::two_blocks, 1e-10); }
 TEST(GpuStep, TwoBodiesAgreeInSingle) { expect_agreement<float>(gpu_scenes::two_blocks, 1e-5); }
+TEST(GpuStep, LiquidsAgreeInDouble) { expect_agreement<double>(gpu_scenes::dam_in_plane, 1e-10); }
+TEST(GpuStep, LiquidsAgreeInSingle) { expect_agreement<float>(gpu_scenes::dam_in_plane, 1e-5); }
 TEST(GpuStep, StrainLastAgreesInDouble) { expect_agreement<double>(gpu_scenes::block_usl, 1e-10); }
 TEST(GpuStep, StrainLastAgreesInSingle) { expect_agreement<float>(gpu_scenes::block_usl, 1e-5); }
 TEST(GpuStep, StrainInHalvesAgreesInDouble) { expect_agreement<double>(gpu_scenes::column_usavg, 1e-10); }

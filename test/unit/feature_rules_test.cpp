@@ -98,9 +98,6 @@ void add(Feature feature, SimulationDefinition& d) {
     case Feature::line:
       d.geometry = GeometryKind::line;
       break;
-    case Feature::liquids:
-      d.materials[0].law = NewtonianFluidDefinition();
-      break;
     case Feature::loads:
       d.body_forces.emplace_back();
       break;

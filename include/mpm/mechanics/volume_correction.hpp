@@ -18,8 +18,8 @@
 // lets them together until their spacing is right. The rate is that of the flow which makes the error: a fluid at rest
 // is left alone, and so is a sound wave but for a term of second order in its amplitude.
 //
-// It acts in one step of kEvery, for the time since it last did. Momentum does not change; the elastic energy that
-// particles lose by it is booked.
+// It acts in one step of Clock::kEvery, for the time since it last did. kernel/volume_rule.hpp has the formulas.
+// Momentum does not change; the elastic energy that particles lose by it is booked.
 //
 // Weak: c of a random arrangement varies by some per cent, so a surface that is stirred hard lies up to about a per
 // cent too high. A cell that a tool fills in part counts as one at a surface. Beside the axis of an axisymmetric scene
@@ -32,7 +32,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "mpm/loop/chunk_sums.hpp"
@@ -47,9 +49,18 @@ namespace mpm {
 
 class VolumeCorrection final : public Stage {
  public:
-  static constexpr double kRate = 0.3;  ///< per strain
-  static constexpr double kFull = 0.7;
-  static constexpr int kEvery = 4;  ///< steps
+  /// Tells in which steps it acts. A checkpoint holds it.
+  struct Clock {
+    static constexpr int kEvery = 4;  ///< steps
+    std::uint64_t steps = 0;          ///< so far
+    double waited = 0.0;              ///< since it last acted [s]
+
+    /// Counts a step of `dt` [s]. Returns the time since it last acted where it acts in this one, else 0 [s].
+    double advance(double dt) {
+      waited += dt;
+      return ++steps % kEvery == 0 ? std::exchange(waited, 0.0) : 0.0;
+    }
+  };
 
   /// A set of particles, all of them in the order of the run's.
   struct Body {
@@ -76,9 +87,13 @@ class VolumeCorrection final : public Stage {
   }
   void serialise(StateArchive& archive) override {
     archive.sum("taken", taken_);
-    archive.value("steps", steps_);
-    archive.value("waited", waited_);
+    archive.value("steps", clock_.steps);
+    archive.value("waited", clock_.waited);
   }
+
+  // A device that acts in its place asks when, and books the energy that particles lost since its last call [J].
+  Clock& clock() { return clock_; }
+  void count(double lost) { taken_ += lost; }
 
  private:
   /// Numbers of a body's particles, in their order.
@@ -97,9 +112,9 @@ class VolumeCorrection final : public Stage {
   double share(const Grid& grid, const std::array<int, 3>& node) const;
   double share_along(const Grid& grid, int axis, int node) const;
   void gather(Fields& fields);
-  /// Returns the energy that the particles of a body lose [J].
+  /// Corrects the particles of a body for the time `waited` [s]. Returns the energy that they lose [J].
   template <class Geometry, class Liquid>
-  double correct(const Liquid& law, const Body& body, const Numbers& numbers);
+  double correct(const Liquid& law, const Body& body, const Numbers& numbers, double waited);
 
   template <class Number>
   const ScalarTransfer::Taken& fluids_take(Number&& number);
@@ -116,9 +131,8 @@ class VolumeCorrection final : public Stage {
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken takers_;
   ChunkSums<double> sums_;
-  double taken_ = 0.0;       ///< [J]
-  std::uint64_t steps_ = 0;  ///< so far
-  double waited_ = 0.0;      ///< since it last acted [s]
+  double taken_ = 0.0;  ///< [J]
+  Clock clock_;
 };
 
 }  // namespace mpm

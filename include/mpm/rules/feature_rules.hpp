@@ -39,7 +39,6 @@ enum class Feature {
   implicit_steps,
   leaving,
   line,
-  liquids,
   loads,
   loads_beside_cut,
   loads_of_place,

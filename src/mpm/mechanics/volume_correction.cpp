@@ -1,20 +1,14 @@
 #include "mpm/mechanics/volume_correction.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mpm/grid/for_nodes.hpp"
+#include "mpm/kernel/volume_rule.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/particles/for_particles.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
-namespace {
-
-constexpr double kAlmostAll = 1.0 - 1e-6;  ///< part of weights: above what rounding leaves of all in single precision
-constexpr double kLeastShare = 1e-3;       ///< part of a cell: less is a node beyond the domain
-
-}  // namespace
 
 VolumeCorrection::VolumeCorrection(std::vector<Body> bodies, GeometryKind geometry, ShapeKind shape, int threads,
                                    std::unique_ptr<ScalarTransfer> transfer, double cell)
@@ -69,10 +63,7 @@ double VolumeCorrection::share_along(const Grid& grid, int axis, int node) const
   }
   const double beyond = traits_of(shape_).beyond_next;
   const bool folds = grid.has_wall[2 * axis + (node > last - node ? 1 : 0)];
-  if (from_face > 1) return 1.0;
-  if (from_face == 1) return folds ? 1.0 - 2.0 * beyond : 1.0 - beyond;
-  if (from_face == 0) return folds ? 0.5 + 2.0 * beyond : 0.5;
-  return from_face == -1 && !folds ? beyond : 0.0;
+  return VolumeRule::share(from_face, folds, beyond);
 }
 
 double VolumeCorrection::share(const Grid& grid, const std::array<int, 3>& node) const {
@@ -102,7 +93,7 @@ void VolumeCorrection::find_fullness(const Fields& fields) {
       }
       for (int n = 0; n < nodes; ++n) {
         const double room = share(*fields[f], fields[f]->layout.node(blocks.block(b), n));
-        held[n] = room > kLeastShare ? held[n] / (room * cell_) : 1.0;
+        held[n] = VolumeRule::fullness(held[n], room, cell_);
       }
     });
   }
@@ -125,7 +116,7 @@ void VolumeCorrection::gather(Fields& fields) {
   }
   for (std::size_t f = 0; f < fields.size(); ++f) {
     for_all("volume correction: fullness of nodes", threads_, static_cast<int>(fullness_[f].size()),
-            [full = fullness_[f].data()](int i) { full[i] = full[i] < kFull ? 0.0 : 1.0; });
+            [full = fullness_[f].data()](int i) { full[i] = VolumeRule::full(full[i]); });
     transfer_->gather(static_cast<int>(f), fullness_[f],
                       fluids_take([](Numbers& of, auto& to) { to[0] = of.full.data(); }));
   }
@@ -152,14 +143,14 @@ void VolumeCorrection::gather(Fields& fields) {
 }
 
 template <class Geometry, class Liquid>
-double VolumeCorrection::correct(const Liquid& law, const Body& body, const Numbers& of) {
+double VolumeCorrection::correct(const Liquid& law, const Body& body, const Numbers& of, double waited) {
   ParticleSet& set = *body.set;
   return sums_.over("volume correction: dilatation", set.awake(), threads_, [&](std::size_t i, double& lost) {
     const int p = static_cast<int>(i);
     const auto f = Geometry::load_matrix(set.f, p);
-    const double j = determinant(f), excess = std::log(j * of.fullness[p]);
-    if (!(std::isfinite(excess)) || (excess < 0.0 && of.full[p] < kAlmostAll)) return;
-    const double corrected = j * std::exp(excess * std::expm1(-kRate * waited_ * std::sqrt(of.squares[p])));
+    const double j = determinant(f);
+    double corrected = j;
+    if (!VolumeRule::relax(of.fullness[p], of.full[p], of.squares[p], waited, corrected)) return;
     const auto now = Geometry::dilatation(corrected);
     std::array<double, Geometry::kMatrix> components;
     std::array<double*, Geometry::kMatrix> places;
@@ -172,8 +163,8 @@ double VolumeCorrection::correct(const Liquid& law, const Body& body, const Numb
 }
 
 void VolumeCorrection::momentum_gathered(StepContext& context) {
-  waited_ += context.dt;
-  const bool acts = ++steps_ % kEvery == 0, first = volume_.empty();
+  const double waited = clock_.advance(context.dt);
+  const bool acts = waited > 0.0, first = volume_.empty();
   // The first step of a run, whatever its number, makes room for what the others need: these do not allocate.
   if (!acts && !first) return;
   make_room();
@@ -186,12 +177,11 @@ void VolumeCorrection::momentum_gathered(StepContext& context) {
       std::visit(
           [&](const auto& law) {
             if constexpr (kTraitsOf<std::decay_t<decltype(law)>>.matter == Matter::liquid)
-              taken_ += correct<Geometry>(law, bodies_[s], numbers_[s]);
+              taken_ += correct<Geometry>(law, bodies_[s], numbers_[s], waited);
           },
           *bodies_[s].law);
     }
   });
-  if (acts) waited_ = 0.0;
 }
 
 }  // namespace mpm

@@ -163,10 +163,6 @@ constexpr std::array<Entry, kFeatures> kEntries = {{
     {Feature::leaving, "particles that leave the grid", "grid.leave",
      [](D d, R) { return found_if(d.grid.leave_limit > 0); }},
     {Feature::line, "a line", "geometry", [](D d, R) { return found_if(d.geometry == GeometryKind::line); }},
-    {Feature::liquids, "liquids", "materials",
-     [](D d, R) {
-       return named_in(d.materials, [](const auto& m) { return traits_of(m).matter == Matter::liquid; });
-     }},
     {Feature::loads, "loads", "loads",
      [](D d, R) { return found_if(any_load(d)); }},
     {Feature::loads_beside_cut, "loads beside particles cut by a curved surface", "loads",
@@ -357,7 +353,6 @@ const std::vector<FeatureRule>& feature_rules() {
       {Feature::device, Feature::transport, kNoKernel, kOnCpu},
       {Feature::device, Feature::cracks, kNoKernel, kOnCpu},
       {Feature::device, Feature::volumes, kNoKernel, kOnCpu},
-      {Feature::device, Feature::liquids, "their volume is corrected, for which there is no kernel there yet", kOnCpu},
       {Feature::device, Feature::particle_tools, "contact is not found from volumes there yet", kOnCpu},
       {Feature::device, Feature::thin_tools, "all material is in one velocity field there",
        "write sides: one for the tool, or run it with --device cpu"},

@@ -12,6 +12,7 @@
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/law_passes.hpp"
 #include "mpm_gpu/leaving_passes.hpp"
+#include "mpm_gpu/liquid_passes.hpp"
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/prescribed_passes.hpp"
@@ -57,6 +58,8 @@ void each_pass() {
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAffine>>;
   (void)&launch<LoadKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<FullnessKernel<T, Geometry::kDim, ShapeClass>>;
+  (void)&launch<FullnessToParticlesKernel<T, Geometry::kDim, ShapeClass>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement, Counting::slip>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kIncrement, Counting::damping>>;
   (void)&launch<MoveKernel<T, Geometry::kDim, ShapeClass, mpm_kernel::kAdopt, Counting::damping>>;
@@ -109,6 +112,7 @@ void law() {
   if constexpr (kOnDevice<OneLaw>) (void)&launch<RateKernel<T, Geometry, OneLaw>>;
   if constexpr (kOnDevice<OneLaw>) (void)&launch_sum<TotalsKernel<T, Geometry, OneLaw>, Totals>;
   if constexpr (kOnDevice<OneLaw> && OneLaw::kAveragesStress) (void)&launch<AverageKernel<T, Geometry, OneLaw>>;
+  if constexpr (OneLaw::kMatter == mpm::Matter::liquid) (void)&launch<RelaxKernel<T, Geometry, OneLaw>>;
 }
 template <class T, class Geometry, class... Laws>
 void each_law(const std::variant<Laws...>*) {
@@ -124,6 +128,7 @@ void each_kernel() {
   each_of_loads<T, Geometry::kDim>();
   each_of_soil<T, Geometry>();
   (void)&launch<DomainKernel<T, Geometry::kDim>>;
+  (void)&launch<VolumeKernel<T, Geometry>>;
   (void)&launch<FirstIncrementKernel<T, Geometry::kDim>>;
   (void)&launch<FirstIncrementKernel<T, Geometry::kDim, true>>;
   each_law<T, Geometry>(static_cast<const mpm::Law*>(nullptr));

@@ -6,6 +6,7 @@
 #include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/leaving_passes.hpp"
+#include "mpm_gpu/liquid_passes.hpp"
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"

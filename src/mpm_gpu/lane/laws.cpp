@@ -27,5 +27,11 @@ AveragePass<double> average_pass(int dim, std::size_t law, double) {
 AveragePass<float> average_pass(int dim, std::size_t law, float) {
   return dim == 3 ? LawPasses<float, mpm::Solid>::kAverages[law] : LawPasses<float, mpm::PlaneStrain>::kAverages[law];
 }
+RelaxPass<double> relax_pass(int dim, std::size_t law, double) {
+  return dim == 3 ? LawPasses<double, mpm::Solid>::kRelaxes[law] : LawPasses<double, mpm::PlaneStrain>::kRelaxes[law];
+}
+RelaxPass<float> relax_pass(int dim, std::size_t law, float) {
+  return dim == 3 ? LawPasses<float, mpm::Solid>::kRelaxes[law] : LawPasses<float, mpm::PlaneStrain>::kRelaxes[law];
+}
 
 }  // namespace mpm_gpu

@@ -4,6 +4,7 @@
 #include "mpm/shape/dirac.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 #include "mpm_gpu/leaving_passes.hpp"
+#include "mpm_gpu/liquid_passes.hpp"
 #include "mpm_gpu/load_passes.hpp"
 #include "mpm_gpu/node_passes.hpp"
 #include "mpm_gpu/particle_passes.hpp"
@@ -77,6 +78,20 @@ struct PassesOf {
       run.for_each("gpu: particles that left", set.count, PutBackKernel<T, kDim>{step, set, numbers});
     }
   }
+  static void volumes(Executor& run, const StepView<T>& step, int number, double start, bool stays, double* volume) {
+    const SetView& set = step.sets[number];
+    run.for_each("gpu: volume of liquids", set.count,
+                 VolumeKernel<T, Geometry>{step.particles, set.first, start, stays, volume});
+  }
+  static void fullness(Executor& run, const StepView<T>& step, const double* volume, double cell, double* fullness) {
+    run.for_each("gpu: volume of liquids", step.nodes.nodes,
+                 FullnessKernel<T, kDim, ShapeClass>{step, volume, cell, fullness});
+  }
+  static void fullness_to_particles(Executor& run, const StepView<T>& step, int number, const double* fullness) {
+    const SetView& set = step.sets[number];
+    run.for_each("gpu: volume of liquids", set.count,
+                 FullnessToParticlesKernel<T, kDim, ShapeClass>{step, set, fullness});
+  }
   static constexpr bool kStretches = ShapeClass<mpm::Wide<T>>::kStretches;
   static constexpr Passes<T> kPasses = {
       kStretches ? &domains : nullptr,
@@ -95,7 +110,10 @@ struct PassesOf {
       &traction,
       &load_power,
       &hold,
-      &put_back};
+      &put_back,
+      &volumes,
+      &fullness,
+      &fullness_to_particles};
 };
 
 template <class T, template <class> class ShapeClass>

@@ -47,4 +47,4 @@ add_library(mpm_gpu_cuda STATIC EXCLUDE_FROM_ALL src/mpm_gpu/device.cpp src/mpm_
 set_source_files_properties(${card_objects} ${sort_and_scan} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 target_compile_definitions(mpm_gpu_cuda PUBLIC MPM_CUDA)
 target_include_directories(mpm_gpu_cuda SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DIRS})
-target_link_libraries(mpm_gpu_cuda PUBLIC mpm CUDA::cudart_static PRIVATE mpm_options fmt::fmt)
+target_link_libraries(mpm_gpu_cuda PUBLIC mpm CUDA::cudart_static PRIVATE mpm_options OpenMP::OpenMP_CXX fmt::fmt)

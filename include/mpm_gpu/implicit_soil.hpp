@@ -40,7 +40,7 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   std::size_t bytes() const override;
 
   // Functions of SoilField.
-  void begin(double dt) override;
+  void begin(double dt, bool other_blocks) override;
   std::vector<Node>& nodes() override { return nodes_; }
   void take_rows() override;
   void meet() override;
@@ -79,7 +79,6 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   double start_ = 0.0;
   long sorts_ = 0, taken_ = -1;   ///< sorts before this step, and before the blocks were taken
   std::uint64_t rest_taken_ = 0;  ///< generation of the blocks of sleep's grid then
-  bool fresh_ = false;            ///< blocks have been taken, but not what depends on them
   bool meets_ = false;            ///< there may be rows of contact, for which the host needs the nodes
   std::vector<Node> nodes_;       ///< copy on the host
   std::vector<std::uint8_t> marked_;

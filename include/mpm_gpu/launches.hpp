@@ -27,7 +27,7 @@ __attribute__((global)) void one_index(Kernel kernel, Visits visits, long count,
   const long i =
       static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + __nvvm_read_ptx_sreg_tid_x();
   if (i >= count) return;
-  kernel(visits == Visits::forwards ? i : visits == Visits::backwards ? count - 1 - i : i * stride % count);
+  kernel(visited(visits, i, count, stride));
 }
 
 /// Members of a team are neighbours in a warp, which waits for them after each turn.

@@ -26,11 +26,11 @@ class Loops {
   /// the turns of a team one after another. Teams do not wait for each other.
   template <int Members, class Kernel>
   void in_turns(const char* name, long teams, int turns, const Kernel& kernel) {
-    const int first = visits_ == Visits::backwards ? Members - 1 : 0;
-    const int step = visits_ == Visits::shuffled ? static_cast<int>(stride_of(Members)) : first == 0 ? 1 : -1;
+    const Visits visits = visits_;
+    const long stride = stride_of(Members);
     for_each(name, teams, [=](long team) {
       for (int turn = 0; turn < turns; ++turn) {
-        for (int m = 0; m < Members; ++m) kernel(team, turn, (first + m * step + Members) % Members);
+        for (int m = 0; m < Members; ++m) kernel(team, turn, static_cast<int>(visited(visits, m, Members, stride)));
       }
     });
   }

@@ -16,4 +16,9 @@ inline long stride_of(long count) {
   return stride;
 }
 
+/// The index that is visited as number i of `count`.
+constexpr long visited(Visits visits, long i, long count, long stride) {
+  return visits == Visits::forwards ? i : visits == Visits::backwards ? count - 1 - i : i * stride % count;
+}
+
 }  // namespace mpm_gpu

@@ -70,7 +70,6 @@ void ImplicitSoil<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step
     map_.take_blocks(run, step, passes_, solve_.grid(), rest_);
     taken_ = sorts_;
     rest_taken_ = rest;
-    fresh_ = true;
   }
   solve_.solve_step(start_, step.settings.dt);
 }
@@ -110,14 +109,13 @@ mpm_kernel::SoilParticles<T> ImplicitSoil<T>::particles_of(int body) const {
 }
 
 template <class T>
-void ImplicitSoil<T>::begin(double dt) {
-  if (fresh_) {
+void ImplicitSoil<T>::begin(double dt, bool other_blocks) {
+  if (other_blocks) {
     map_.take_grid(solve_.soil_grid());
     nodes_.assign(static_cast<std::size_t>(solve_.soil_grid().numbers()), Node{});
     const Node none{};
     node_.upload(&none, 1, map_.none());
     meets_ = solve_.tools().any() || !solve_.soil_grid().frictional().empty();
-    fresh_ = false;
   }
   const SoilView<T> soil = view();
   passes_.load(*run_, step_, soil);

@@ -105,4 +105,22 @@ inline void expect_alike(Simulation& here, Simulation& there, double bound = kRo
   for (const char* name : {"x", "z", "vz", "j"}) EXPECT_LT(difference(here, there, name), bound) << name;
 }
 
+/// A run that goes on from a checkpoint ends with the same bits. `begin` is done with each run, `compare` with both
+/// ends.
+template <class Begin, class Compare>
+void expect_resumes(const SimulationDefinition& d, Begin&& begin, Compare&& compare) {
+  const mpm::test::Folder folder;
+  const std::string file = folder.file("half.h5");
+  Simulation whole(d, options(true)), first(d, options(true)), second(d, options(true));
+  for (Simulation* one : {&whole, &first, &second}) begin(*one);
+  advance(whole, kPeriods);
+  advance(first, kPeriods / 2);
+  mpm::save_checkpoint(file, first, {});
+  mpm::load_checkpoint(file, second, "");
+  EXPECT_EQ(first.memory_hash(), second.memory_hash());
+  advance(second, kPeriods / 2);
+  EXPECT_EQ(whole.state_hash(), second.state_hash());
+  compare(whole, second);
+}
+
 }  // namespace gpu_runs

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../stability/probe.hpp"
 #include "mpm/material/material_point.hpp"
+#include "mpm/rigid/surface.hpp"
 #include "mpm_gpu/exchange.hpp"
 
 namespace gpu_scenes {
@@ -172,6 +175,27 @@ inline mpm::SimulationDefinition column_friction(mpm::Precision precision) {
   d.walls[0].friction.stick = true;
   d.walls[4].friction.coefficient = 0.3;
   return d;
+}
+
+/// A tool that moves at a constant velocity.
+inline mpm::RigidBodyDefinition tool(const std::string& name, std::unique_ptr<mpm::Surface> surface, const Vec3& place,
+                                     const Vec3& velocity) {
+  mpm::RigidBodyDefinition body;
+  body.name = name;
+  body.surface = std::move(surface);
+  body.pose.position = place;
+  for (int k = 0; k < 3; ++k) body.velocity[k] = mpm::Function(velocity[k]);
+  body.friction.coefficient = 0.4;
+  return body;
+}
+
+/// Lets a ball fall, free to turn.
+inline void let_fall(mpm::RigidBodyDefinition& ball) {
+  ball.velocity = {};
+  ball.free = mpm::FreeDefinition{};
+  ball.free->mass = 40.0;
+  ball.free->inertia = 0.6 * mpm::Mat3::Identity();
+  ball.free->velocity.linear = {0.5, 0.2, -1.5};
 }
 
 /// Time in which the fastest wave of the materials at rest crosses 0.3 cells [s].

@@ -31,7 +31,7 @@
 
 namespace mpm {
 
-/// Bodies of soil, and the soils of which they are. The sets outlive the cells.
+/// Bodies of soil, and the soils of which they are.
 struct SoilBodies {
   struct Body {
     ParticleSet* set;
@@ -60,7 +60,8 @@ class SoilCells {
   using Group = mpm_kernel::SoilGroup<T>;
   using Node = mpm_kernel::SoilNode<T>;
 
-  SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads);
+  /// Bodies, their sets and the grid outlive this.
+  SoilCells(const SoilBodies& bodies, const SoilGrid& grid, int threads);
 
   /// After the blocks in use have changed.
   void rebuild();
@@ -95,7 +96,7 @@ class SoilCells {
   /// The place of a soil's first cell in a block, or -1.
   int& slot(int soil, int block) { return slots_[static_cast<std::size_t>(soil) * blocks_ + block]; }
 
-  SoilBodies bodies_;
+  const SoilBodies& bodies_;
   std::vector<mpm_kernel::SoilConstants> constants_;  ///< constants of each soil
   std::vector<mpm_kernel::SoilParticles<T>> views_;   ///< in this step
   const SoilGrid& grid_;

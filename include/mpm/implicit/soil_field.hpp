@@ -31,8 +31,9 @@ class SoilField {
   virtual ~SoilField() = default;
 
   /// A step of `dt` [s] begins: nodes have their velocities with gravity and loads, cells are found from the particles
-  /// and have given nodes the impulses of the stresses with which they begin.
-  virtual void begin(double dt) = 0;
+  /// and have given nodes the impulses of the stresses with which they begin. `other_blocks`: other blocks are in use
+  /// than in the step before.
+  virtual void begin(double dt, bool other_blocks) = 0;
   /// The nodes on the host, by SoilGrid::numbers(): of all of them between begin() and take_rows() and after
   /// end_sweeps(), and of those shown in between.
   virtual std::vector<Node>& nodes() = 0;

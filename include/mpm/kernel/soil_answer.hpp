@@ -7,13 +7,6 @@
 
 namespace mpm::soil {
 
-using mpm_kernel::CellKind;
-using mpm_kernel::kCellNodes;
-using mpm_kernel::kOverRoot2;
-using mpm_kernel::kOverRoot3;
-using mpm_kernel::kOverRoot6;
-using mpm_kernel::SoilNode;
-
 /// Answer of a cell's rate of strain to its own stress: sum over nodes and axes of w w^T / m, where w are the numbers
 /// that a velocity along the axis gives to e. What stands for it, a number for e_N and one for e_T, must not be less in
 /// any direction: sweeps would make energy where a node is light.

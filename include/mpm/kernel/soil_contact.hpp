@@ -8,8 +8,6 @@
 namespace mpm::soil {
 
 using mpm_kernel::ContactRow;
-using mpm_kernel::kCellNodes;
-using mpm_kernel::SoilNode;
 using mpm_kernel::WallRow;
 
 constexpr int kContactPasses = 2;  ///< passes over the rows of a block in a sweep: rows of a body bind the same nodes

@@ -10,6 +10,13 @@
 
 namespace mpm::soil {
 
+using mpm_kernel::CellKind;
+using mpm_kernel::kCellNodes;
+using mpm_kernel::kOverRoot2;
+using mpm_kernel::kOverRoot3;
+using mpm_kernel::kOverRoot6;
+using mpm_kernel::SoilNode;
+
 template <class T>
 struct Lanes {
   typedef T Eight __attribute__((vector_size(8 * sizeof(T)), aligned(sizeof(T)), may_alias));
@@ -68,13 +75,13 @@ struct Corners {
 
 #ifdef MPM_ONE_LANE
 template <class T>
-Corners<T> load(const mpm_kernel::SoilNode<T>* nodes, const int* n) {
-  const mpm_kernel::SoilNode<T>& node = nodes[*n];
+Corners<T> load(const SoilNode<T>* nodes, const int* n) {
+  const SoilNode<T>& node = nodes[*n];
   return {node.v[0], node.v[1], node.v[2], node.inverse_mass};
 }
 // A node without mass, which may be that of several cells, has no velocity.
 template <class T>
-void store(mpm_kernel::SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
+void store(SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
   if (!(c.m > T(0))) return;
   T* v = nodes[*n].v;
   v[0] = c.x;
@@ -83,7 +90,7 @@ void store(mpm_kernel::SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
 }
 #else
 template <class T>
-inline __attribute__((always_inline)) Corners<T> load(const mpm_kernel::SoilNode<T>* nodes, const int* n) {
+inline __attribute__((always_inline)) Corners<T> load(const SoilNode<T>* nodes, const int* n) {
   const auto pair = [&](int a, int b) {
     const Four<T> low = *reinterpret_cast<const Four<T>*>(nodes[n[a]].v);
     const Four<T> high = *reinterpret_cast<const Four<T>*>(nodes[n[b]].v);
@@ -101,7 +108,7 @@ inline __attribute__((always_inline)) Corners<T> load(const mpm_kernel::SoilNode
 }
 
 template <class T>
-inline __attribute__((always_inline)) void store(mpm_kernel::SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
+inline __attribute__((always_inline)) void store(SoilNode<T>* nodes, const int* n, const Corners<T>& c) {
   const Register<T> xy = __builtin_shufflevector(c.x, c.y, 0, 8, 1, 9, 4, 12, 5, 13);
   const Register<T> up_xy = __builtin_shufflevector(c.x, c.y, 2, 10, 3, 11, 6, 14, 7, 15);
   const Register<T> zm = __builtin_shufflevector(c.z, c.m, 0, 8, 1, 9, 4, 12, 5, 13);
@@ -145,7 +152,7 @@ using Flow = mpm_kernel::SoilFlow<T, kSoilLanes>;
 
 /// Inverse masses of the nodes of a group's corner.
 template <class T>
-inline __attribute__((always_inline)) Register<T> inverse_masses(const mpm_kernel::SoilNode<T>* nodes, const int* n) {
+inline __attribute__((always_inline)) Register<T> inverse_masses(const SoilNode<T>* nodes, const int* n) {
 #ifdef MPM_ONE_LANE
   return nodes[*n].inverse_mass;
 #else
@@ -156,13 +163,12 @@ inline __attribute__((always_inline)) Register<T> inverse_masses(const mpm_kerne
 }
 
 /// The nodes of the cells of a group, a cell a lane: eight in space, else the four that a cell has.
-template <class T, mpm_kernel::CellKind Kind>
+template <class T, CellKind Kind>
 struct GroupNodes {
-  static constexpr int kCount =
-      Kind == mpm_kernel::CellKind::space ? mpm_kernel::kCellNodes : mpm_kernel::kCellNodes / 2;
+  static constexpr int kCount = Kind == CellKind::space ? kCellNodes : kCellNodes / 2;
   Corners<T> of[kCount];
 
-  GroupNodes(const mpm_kernel::SoilGroup<T, kSoilLanes>& group, const mpm_kernel::SoilNode<T>* nodes) {
+  GroupNodes(const Group<T>& group, const SoilNode<T>* nodes) {
     for (int e = 0; e < kCount; ++e) of[e] = load(nodes, group.node[e]);
   }
 };

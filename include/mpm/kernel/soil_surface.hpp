@@ -9,13 +9,6 @@
 
 namespace mpm::soil {
 
-using mpm_kernel::CellKind;
-using mpm_kernel::kCellNodes;
-using mpm_kernel::kOverRoot2;
-using mpm_kernel::kOverRoot3;
-using mpm_kernel::kOverRoot6;
-using mpm_kernel::SoilNode;
-
 template <class T>
 constexpr T kStill = T(1e-12);  ///< a rate below which there is no direction [1/s]
 

@@ -12,12 +12,9 @@ HostField<T>::HostField(const FieldParts<T>& parts, const SoilBodies& bodies, in
     : parts_(parts), cells_(bodies, parts.soil_grid, threads), threads_(threads), lightest_(lightest), loads_(loads) {}
 
 template <class T>
-void HostField<T>::begin(double dt) {
+void HostField<T>::begin(double dt, bool other_blocks) {
   timed("implicit: particles to cells", [&] {
-    if (const std::uint64_t now = parts_.grid.blocks.generation(); now != generation_) {
-      generation_ = now;
-      cells_.rebuild();
-    }
+    if (other_blocks) cells_.rebuild();
     load();
     cells_.gather(parts_.table, nodes_, dt);
   });

@@ -31,7 +31,7 @@ class HostField final : public SoilField<T> {
   /// `lightest`: added to a node's mass in the solve [kg]; `loads`: as ImplicitSettings::loads.
   HostField(const FieldParts<T>& parts, const SoilBodies& bodies, int threads, double lightest, bool loads);
 
-  void begin(double dt) override;
+  void begin(double dt, bool other_blocks) override;
   std::vector<Node>& nodes() override { return nodes_; }
   void take_rows() override {}
   void meet() override;
@@ -56,7 +56,6 @@ class HostField final : public SoilField<T> {
   int threads_;
   double lightest_;
   bool loads_;
-  std::uint64_t generation_ = 0;  ///< generation of the blocks that cells_ were made for
   std::vector<Node> nodes_;
   std::vector<Node> before_;      ///< as the last pair of sweeps began with them
   std::vector<SoilDeeds> deeds_;  ///< deeds of each block

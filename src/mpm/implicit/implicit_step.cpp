@@ -109,10 +109,10 @@ class ImplicitStep final : public Stage, public ContactReporter, public Implicit
     field_ = field;
   }
   void solve_step(double start, double dt) override {
-    soil_grid_.rebuild();
+    const bool other_blocks = soil_grid_.rebuild();
     tools_.clear();
     walls_.clear();
-    field_->begin(dt);
+    field_->begin(dt, other_blocks);
     timed("implicit: contact", [&] {
       tools_.find(field_->nodes(), start, dt);
       walls_.find(field_->nodes(), dt);

@@ -64,8 +64,8 @@ void copy_without_soil(mpm_kernel::SoilGroup<T>& group, mpm_kernel::SoilPlaces<T
 }  // namespace
 
 template <class T>
-SoilCells<T>::SoilCells(SoilBodies bodies, const SoilGrid& grid, int threads)
-    : bodies_(std::move(bodies)), grid_(grid), threads_(threads) {
+SoilCells<T>::SoilCells(const SoilBodies& bodies, const SoilGrid& grid, int threads)
+    : bodies_(bodies), grid_(grid), threads_(threads) {
   for (const ImplicitSoil& soil : bodies_.soils) constants_.push_back(soil.constants());
 }
 

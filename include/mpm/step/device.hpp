@@ -4,10 +4,12 @@
 // what depends on time (rates of damping, loads, prescribed velocities) and books with them what it does in their
 // place, so that accounts and checkpoints are those of a run on the processor.
 //
-// Two of them act on the host in every step. Contact with rigid bodies needs the host's bodies, robots and solution for
-// all points of contact: the device copies the nodes near bodies, and the particles around them, into a grid of the
+// Three of them act on the host in every step. Contact with rigid bodies needs the host's bodies, robots and solution
+// for all points of contact: the device copies the nodes near bodies, and the particles around them, into a grid of the
 // host, and takes the nodes' velocities back. Sleep acts on the nodes at the border of what is asleep in the same way.
 // Particles asleep are on the host alone; where some fall asleep or wake, all go there and those awake come back.
+// An implicit step decides there how often the device sweeps its soil, and finds the rows of contact
+// (implicit/soil_field.hpp).
 #pragma once
 
 #include <memory>
@@ -58,7 +60,7 @@ class HostRest {
 struct RunModules {
   Mechanics& mechanics;
   const Modules& modules;
-  HostContact* contact = nullptr;  ///< null in a scene without rigid bodies
+  HostContact* contact = nullptr;  ///< null in a scene without rigid bodies and implicit steps
   HostRest* rest = nullptr;        ///< null in a scene that does not sleep
 };
 

@@ -88,7 +88,7 @@ struct Simulation::State {
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::unique_ptr<Device> device;                  ///< another processor that takes the steps, else null
-  std::unique_ptr<ContactOnHost> host_contact;     ///< contact in the device's steps; null without one, or rigid bodies
+  std::unique_ptr<ContactOnHost> host_contact;     ///< null without a device, or rigid bodies and implicit steps
   std::unique_ptr<RestOnHost> rest_on_host;        ///< sleep in the device's steps; null without one, or sleep
   Device::Numbers fetched = Device::Numbers::all;  ///< numbers that the sets show as the device has them
   bool moved_by_device = false;                    ///< true if sets show its steps and have not been sorted since

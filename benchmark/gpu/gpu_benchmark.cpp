@@ -47,18 +47,21 @@ void measure(long particles, bool soil) {
   mpm::SimulationProbe solver(d);
   mpm_gpu::DeviceRun<T> run(d, solver.sets());
   const double dt = gpu_scenes::step_of(d), count = static_cast<double>(d.bodies[0].positions.size());
-  for (int i = 0; i < kSteps / 5; ++i) run.solver().step(dt);
-  // Every step ends with a number that the host waits for, so that the clock needs nothing more.
+  const auto advance = [&](int steps) {
+    for (int i = 0; i < steps; ++i) run.solver().step(dt);
+    run.solver().look();  // waits for all of them
+  };
+  advance(kSteps / 5);
   const long sorts = run.solver().sorts();
   const auto begin = Clock::now();
-  for (int i = 0; i < kSteps; ++i) run.solver().step(dt);
+  advance(kSteps);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count() / kSteps;
   fmt::print("{:<8} {:<6} {:>9.0f} {:>10.3f} {:>12.1f} {:>9.0f} {:>6}\n", soil ? "soil" : "elastic",
              sizeof(T) == 8 ? "double" : "single", count, 1e3 * seconds, 1e-6 * count / seconds,
              static_cast<double>(run.solver().bytes()) / count, run.solver().sorts() - sorts);
 #ifdef MPM_CUDA
   mpm_gpu::card::profile(true);
-  for (int i = 0; i < kStepsOfProfile; ++i) run.solver().step(dt);
+  advance(kStepsOfProfile);
   for (const mpm_gpu::card::Row& row : mpm_gpu::card::profiled()) {
     fmt::print("    {:<40} {:>8.1f} launches {:>9.3f} ms a step\n", row.name,
                static_cast<double>(row.launches) / kStepsOfProfile, 1e3 * row.seconds / kStepsOfProfile);

@@ -94,7 +94,7 @@ struct AverageKernel {
     return static_cast<const LawType*>(law)->elastic_energy(kNoMatter, Stored::symmetric(stress), volume_ratio);
   }
 
-  static void run(Executor& run, const StepView<T>& step, int number, const void* law) {
+  static void run(Executor& run, const Step<T>& step, int number, const void* law) {
     const SetView& set = step.sets[number];
     bool adds = false;
     for (int before = 0; before < number; ++before) adds = adds || step.sets[before].averages;

@@ -1,5 +1,5 @@
-// Memory that kernels work on: an array that grows only when asked to, between steps, and never within one. With
-// MPM_CUDA it is the card's memory, which the host reaches by copies alone.
+// Memory that kernels work on: an array that grows only when asked to, between steps, and never within one. It is the
+// card's, which the host reaches by copies alone.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,10 @@
 #include <utility>
 #include <vector>
 
-#ifdef MPM_CUDA
 #include "mpm_gpu/card.hpp"
-#else
-#include <cstring>
-#endif
 
 namespace mpm_gpu {
 
-#ifdef MPM_CUDA
 /// Bytes of the card, zero at first.
 class Memory {
  public:
@@ -47,22 +42,6 @@ class Memory {
   void* data_ = nullptr;
   std::size_t bytes_ = 0;
 };
-#else
-/// Bytes of the processor, zero at first.
-class Memory {
- public:
-  Memory() = default;
-  explicit Memory(std::size_t bytes) : bytes_(bytes) {}
-  void* data() const { return const_cast<unsigned char*>(bytes_.data()); }
-  std::size_t bytes() const { return bytes_.size(); }
-  void swap(Memory& other) noexcept { bytes_.swap(other.bytes_); }
-  void upload(std::size_t at, const void* from, std::size_t bytes) { std::memcpy(bytes_.data() + at, from, bytes); }
-  void download(std::size_t at, void* to, std::size_t bytes) const { std::memcpy(to, bytes_.data() + at, bytes); }
-
- private:
-  std::vector<unsigned char> bytes_;
-};
-#endif
 
 template <class T>
 class Buffer {

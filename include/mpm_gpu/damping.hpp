@@ -27,7 +27,7 @@ class Damping final : public Stage<T> {
         layout_(layout) {}
 
   void make_room(Executor&, long nodes) override { impulse_.make_room(nodes); }
-  void begin_step(Executor&, StepView<T>& step, double start, long) override {
+  void begin_step(Executor&, Step<T>& step, double start, long) override {
     control_.begin_step(start, step.settings.dt);
     const mpm::DampingRates rates = control_.rates(0);
     step.settings.node_damping = control_.force_rate();
@@ -37,12 +37,12 @@ class Damping final : public Stage<T> {
     step.settings.particle_damping = rates.particle;
     if (control_.has_part_of_pic()) step.settings.flip = control_.flip();
   }
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override {
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override {
     const double rate = step.settings.node_damping;
     if (hook != mpm::Hook::forces_gathered || rate == 0.0) return;
     impulse_.add(run, "gpu: accounts", step.nodes.momentum, step.nodes.nodes, layout_.dim(), -rate * step.settings.dt);
   }
-  void end_step(Executor&, const StepView<T>& step, double start, const Taken& taken) override {
+  void end_step(Executor&, const Step<T>& step, double start, const Taken& taken) override {
     if (!step.settings.damped) return;
     drag_ += taken.drag_energy;
     mpm::Damped sum;

@@ -55,6 +55,43 @@ class Executor : public Backend {
       });
     }
   }
+  /// Records the work that `work()` hands out, which does nothing now; replay() hands it out as it was then.
+  template <class Work>
+  card::Recording record(const Work& work) {
+    card::begin_recording();
+    try {
+      work();
+    } catch (...) {
+      card::drop_recording();
+      throw;
+    }
+    return card::end_recording();
+  }
+  void replay(const card::Recording& recording) { card::replay(recording); }
+  /// Hands out that work if the number there is not zero: in a recording whenever it is replayed, else now, which waits
+  /// for the number.
+  template <class Work>
+  void when(const Buffer<std::uint32_t>& number, long at, const Work& work) {
+    if (card::is_recording()) {
+      card::begin_when(number.data() + at);
+      work();
+      card::end_when();
+    } else if (number.get(at) != 0) {
+      work();
+    }
+  }
+  /// Gives `values` the first so many of `others`, which has as much room: by a swap or, where addresses have to stay
+  /// as they are, by a copy.
+  template <class T>
+  void replace(const char* name, Buffer<T>& values, Buffer<T>& others, long count, bool stay) {
+    if (!stay) {
+      values.swap(others);
+      return;
+    }
+    const T* from = others.data();
+    T* to = values.data();
+    for_each(name, count, [=](long i) { to[i] = from[i]; });
+  }
   static long groups_of(long count) { return (count + kGroup - 1) / kGroup; }
 };
 

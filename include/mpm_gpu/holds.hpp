@@ -18,8 +18,8 @@ class WallHolds {
 
   /// Makes room for so many nodes, and keeps what is there. Between steps only.
   void make_room(Executor& run, long nodes);
-  /// After a sort: lays the bits as the blocks lie now; a block that was not there held nothing.
-  void carry(Executor& run, const NodeView& now);
+  /// After a sort: lays the bits as the blocks lie now; a block that was not there held nothing. `stay`: data() does.
+  void carry(Executor& run, const NodeView& now, bool stay);
   /// Bits of each node; null if none are kept.
   std::uint16_t* data() { return hold_.data(); }
   std::size_t bytes() const { return hold_.bytes() + other_.bytes() + key_.bytes() + other_key_.bytes(); }

@@ -19,7 +19,7 @@ class HomeBlocks {
   /// `home`: number of each particle's block, by id; `first`: numbers of each block's first node, [block][axis].
   void take(const std::vector<std::uint32_t>& home, const std::vector<std::int32_t>& first);
   /// True if a particle is beyond the reach of its block at the end of the step, or of a periodic axis.
-  bool any_left(Executor& run, const StepView<T>& step);
+  bool any_left(Executor& run, const Step<T>& step);
   std::size_t bytes() const { return home_.bytes() + first_.bytes() + left_.bytes(); }
 
  private:

@@ -35,8 +35,8 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
 
   // Functions of Stage.
   void make_room(Executor& run, long nodes) override;
-  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
+  void begin_step(Executor& run, Step<T>& step, double start, long sorts) override;
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override;
   std::size_t bytes() const override;
 
   // Functions of SoilField.
@@ -75,7 +75,7 @@ class ImplicitSoil final : public Stage<T>, public mpm::SoilField<T> {
   Buffer<std::int32_t> soil_of_set_;
 
   Executor* run_ = nullptr;
-  StepView<T> step_{};  ///< view of the step under way, or of the last one
+  Step<T> step_{};  ///< view of the step under way, or of the last one
   double start_ = 0.0;
   long sorts_ = 0, taken_ = -1;   ///< sorts before this step, and before the blocks were taken
   std::uint64_t rest_taken_ = 0;  ///< generation of the blocks of sleep's grid then

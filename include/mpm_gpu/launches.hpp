@@ -91,9 +91,9 @@ class Launches {
 #endif
   }
 
-  /// to[i] = sum of from[0 … i - 1]; returns the sum of all. The two may be one array.
-  std::uint32_t exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count) {
-    return card::exclusive_scan(room_->data(), room_->bytes(), from, to, count);
+  /// to[i] = sum of from[0 … i - 1]. The two may be one array.
+  void exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count) {
+    card::exclusive_scan(room_->data(), room_->bytes(), from, to, count);
   }
   /// Sorts keys below `limit`, and the values with them; of equal keys the order stays. Uses the other arrays as room.
   void stable_sort(std::uint64_t* keys, std::uint32_t* values, std::uint64_t* other_keys, std::uint32_t* other_values,

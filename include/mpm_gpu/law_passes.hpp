@@ -38,7 +38,7 @@ struct LawKernel {
     if (good != 1) fault[p] |= kInverted;
   }
 
-  static void run(Executor& run, const StepView<T>& step, int number, const void* law) {
+  static void run(Executor& run, const Step<T>& step, int number, const void* law) {
     const SetView& set = step.sets[number];
     LawKernel kernel{solver_view(step.particles, set, Geometry::kDim),
                      {step.settings.strain_dt, step.settings.terms, false},
@@ -63,7 +63,7 @@ struct RateKernel {
     rates[p] = mpm::Survey<Geometry, T>::template fastest<LawType>(set, p, p + 1, cell).rate;
   }
 
-  static void run(Executor& run, const StepView<T>& step, int number, const void* law, double cell, double* rates) {
+  static void run(Executor& run, const Step<T>& step, int number, const void* law, double cell, double* rates) {
     const SetView& set = step.sets[number];
     RateKernel kernel{solver_view(step.particles, set, Geometry::kDim), cell, rates, set.first};
     kernel.set.law = law;

@@ -21,7 +21,7 @@ class PutsBack final : public Stage<T> {
            const Passes<T>& passes);
 
   /// @throws mpm::ModuleError when more have left than may
-  bool put_back(Executor& run, const StepView<T>& step) override;
+  bool put_back(Executor& run, const Step<T>& step) override;
   std::size_t bytes() const override {
     return numbers_.bytes() + fault_.bytes() + id_.bytes() + total_.bytes() + taken_.bytes();
   }

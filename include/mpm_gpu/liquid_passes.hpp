@@ -113,7 +113,7 @@ struct RelaxKernel {
     lost[p] = mass * (law.elastic_energy(f, tau, before) - law.elastic_energy(now, tau, j));
   }
 
-  static void run(Executor& run, const StepView<T>& step, int number, const void* law, double waited, double* lost) {
+  static void run(Executor& run, const Step<T>& step, int number, const void* law, double waited, double* lost) {
     const SetView& set = step.sets[number];
     run.for_each("gpu: volume of liquids", set.count,
                  RelaxKernel{step, set, *static_cast<const LawType*>(law), waited, lost});

@@ -28,10 +28,10 @@ class LiquidVolume final : public Stage<T> {
   }
 
   void make_room(Executor&, long nodes) override { fullness_.fit(nodes); }
-  void begin_step(Executor&, StepView<T>& step, double, long) override {
+  void begin_step(Executor&, Step<T>& step, double, long) override {
     waited_ = (correction_ == nullptr ? own_clock_ : correction_->clock()).advance(step.settings.dt);
   }
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override {
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override {
     if (hook != mpm::Hook::momentum_gathered || !(waited_ > 0.0)) return;
     double* volume = volume_.data();
     for (int s = 0; s < step.set_count; ++s) {

@@ -29,8 +29,8 @@ class Loads final : public Stage<T> {
         std::optional<Tractions<T>> tractions = {});
 
   void make_room(Executor& run, long nodes) override;
-  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
+  void begin_step(Executor& run, Step<T>& step, double start, long sorts) override;
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override;
   void tell_modules() override;
   std::size_t bytes() const override;
 

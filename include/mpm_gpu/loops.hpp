@@ -1,11 +1,13 @@
 // Backend of the executor on the processor: kernels in loops, so that the logic, the order of sums and the agreement
-// with the solver are checked without a card: forwards, backwards, shuffled, on several threads.
+// with the solver are checked without a card: forwards, backwards, shuffled, on several threads. Memory and the stream
+// are those of the card that the processor stands in for (card.hpp).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
+#include "mpm_gpu/card.hpp"
 #include "mpm_gpu/visits.hpp"
 
 namespace mpm_gpu {
@@ -18,8 +20,9 @@ class Loops {
   template <class Kernel>
   void for_each(const char* name, long count, const Kernel& kernel) {
     static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel goes to a device as bytes");
-    const Pass<Kernel> pass{&kernel, visits_, count, stride_of(count)};
-    parts(name, count, &Pass<Kernel>::run, &pass);
+    Pass<Kernel> pass{kernel, visits_, count, stride_of(count)};
+    __builtin_clear_padding(&pass);  // bytes that were anything may look like an address
+    card::launch(name, threads_, count, &Pass<Kernel>::run, &pass, sizeof(pass));
   }
 
   /// kernel(team, turn, member) for teams of so many members: all members of a turn at once, whatever their order, and
@@ -35,8 +38,8 @@ class Loops {
     });
   }
 
-  /// to[i] = sum of from[0 … i - 1]; returns the sum of all. The two may be one array.
-  std::uint32_t exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count);
+  /// to[i] = sum of from[0 … i - 1]. The two may be one array.
+  void exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count);
 
   /// Sorts keys below `limit`, and the values with them; of equal keys the order stays. Uses the other arrays as room.
   void stable_sort(std::uint64_t* keys, std::uint32_t* values, std::uint64_t* other_keys, std::uint32_t* other_values,
@@ -51,12 +54,12 @@ class Loops {
  private:
   template <class Kernel>
   struct Pass {
-    const Kernel* kernel;
+    Kernel kernel;
     Visits visits;
     long count, stride;
     static void run(const void* pass, long first, long end) {
       const Pass self = *static_cast<const Pass*>(pass);
-      const Kernel kernel = *self.kernel;
+      const Kernel& kernel = self.kernel;
       if (self.visits == Visits::forwards) {
         for (long i = first; i < end; ++i) kernel(i);
       } else if (self.visits == Visits::backwards) {
@@ -66,9 +69,6 @@ class Loops {
       }
     }
   };
-  /// run(pass, first, end) for a part of the indices on each thread.
-  void parts(const char* name, long count, void (*run)(const void*, long, long), const void* pass);
-
   Visits visits_;
   int threads_;
 };

@@ -24,7 +24,7 @@ class Mixture final : public Stage<T> {
     work_.fit(nodes);
     given_back_.make_room(nodes);
   }
-  void begin_step(Executor&, StepView<T>& step, double, long) override {
+  void begin_step(Executor&, Step<T>& step, double, long) override {
     turn_ = (turn_ + 1) % transfer_.every;
     const bool now = turn_ == 0;
     step.settings.flip = now ? transfer_.flip : 1.0;
@@ -33,7 +33,7 @@ class Mixture final : public Stage<T> {
     step.settings.part = 1.0 - transfer_.flip;
     step.nodes.work = work_.data();
   }
-  void end_step(Executor& run, const StepView<T>& step, double, const Taken& taken) override {
+  void end_step(Executor& run, const Step<T>& step, double, const Taken& taken) override {
     slip_ += taken.slip;
     if (step.settings.increments == 0) return;
     given_back_.add(run, "gpu: accounts", work_.data(), step.nodes.nodes, 1);

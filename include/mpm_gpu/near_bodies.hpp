@@ -22,20 +22,20 @@ class NearBodies final : public Stage<T> {
   /// `contact` outlives this object.
   NearBodies(mpm::HostContact& contact, const GridView& grid);
 
-  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
+  void begin_step(Executor& run, Step<T>& step, double start, long sorts) override;
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override;
 
  private:
   mpm::Grid& grid() { return *contact_.fields().front(); }
   /// Blocks of the table that are near bodies, in their order.
   void choose();
   /// Lets the host's sets and blocks be those of the chosen blocks.
-  void take(Executor& run, const StepView<T>& step);
+  void take(Executor& run, const Step<T>& step);
   /// Groups of particles, a node each, as sorts make them. Returns the keys of the blocks that hold particles.
   std::vector<std::uint64_t> fill_groups(int sets, std::vector<std::uint32_t>& particles,
                                          std::vector<std::uint32_t>& of_block);
   void find_velocities();
-  void download_particles(Executor& run, const StepView<T>& step);
+  void download_particles(Executor& run, const Step<T>& step);
 
   mpm::HostContact& contact_;
   const mpm::GridLayout layout_;

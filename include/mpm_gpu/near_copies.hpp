@@ -22,7 +22,7 @@ class NearCopies {
   /// Keys of all blocks of the table.
   void download_keys(Executor& run, const NodeView& nodes, std::vector<std::uint64_t>& keys);
   /// First particles, and then those past the last, of the nodes of some blocks: [set][block][node] of each.
-  void download_ranges(Executor& run, const StepView<T>& step, const std::vector<std::int32_t>& blocks,
+  void download_ranges(Executor& run, const Step<T>& step, const std::vector<std::int32_t>& blocks,
                        std::vector<std::uint32_t>& ranges);
 
   /// Takes these blocks from here on, by their numbers in the table. `mark`: whether to mark their nodes, for walls.
@@ -30,24 +30,24 @@ class NearCopies {
   /// [node] 1 where it is marked; null if none is.
   const std::uint8_t* marks() const { return marks_.data(); }
   /// Takes these particles, by their numbers, and copies their ids to the host, and their `surface` where there is one.
-  void take_particles(Executor& run, const StepView<T>& step, const std::vector<std::uint32_t>& particles,
+  void take_particles(Executor& run, const Step<T>& step, const std::vector<std::uint32_t>& particles,
                       std::vector<std::uint32_t>& ids, std::vector<double>& surface);
 
   /// Copies `components` of each node to the host.
   void download(Executor& run, const NodeView& nodes, const double* from, int components, double* to);
   /// Copies places, velocities and `components` of the deformation gradient: [component][particle].
-  void download_particles(Executor& run, const StepView<T>& step, int components, std::vector<double>& to);
+  void download_particles(Executor& run, const Step<T>& step, int components, std::vector<double>& to);
   /// Takes places as download_particles() gave them, [axis][particle].
-  void upload_places(Executor& run, const StepView<T>& step, const std::vector<double>& from);
+  void upload_places(Executor& run, const Step<T>& step, const std::vector<double>& from);
 
   /// Takes velocities for the strain.
-  void upload_for_strain(Executor& run, const StepView<T>& step, const double* velocity);
+  void upload_for_strain(Executor& run, const Step<T>& step, const double* velocity);
   /// Takes velocities and accelerations of the step's end, which walls change in the time of the step.
-  void upload_at_end(Executor& run, const StepView<T>& step, const double* velocity, const double* acceleration);
+  void upload_at_end(Executor& run, const Step<T>& step, const double* velocity, const double* acceleration);
   /// Takes velocities of which increments will be found.
-  void upload_first_increment(Executor& run, const StepView<T>& step, const double* increment);
+  void upload_first_increment(Executor& run, const Step<T>& step, const double* increment);
   /// Takes increments in place of those that the nodes' velocities have.
-  void upload_increment(Executor& run, const StepView<T>& step, const double* increment);
+  void upload_increment(Executor& run, const Step<T>& step, const double* increment);
 
  private:
   long count() const { return blocks_ * per_block_; }
@@ -57,15 +57,15 @@ class NearCopies {
   void each_node(Executor& run, const Kernel& kernel);
   /// kernel(node, its number along each axis, what came back, place of component 0) for each node.
   template <int Dim, class Kernel>
-  void each_returned(Executor& run, const StepView<T>& step, const Kernel& kernel);
+  void each_returned(Executor& run, const Step<T>& step, const Kernel& kernel);
   template <int Dim>
-  void take_for_strain(Executor& run, const StepView<T>& step);
+  void take_for_strain(Executor& run, const Step<T>& step);
   template <int Dim>
-  void take_at_end(Executor& run, const StepView<T>& step);
+  void take_at_end(Executor& run, const Step<T>& step);
   template <int Dim>
-  void take_first_increment(Executor& run, const StepView<T>& step);
+  void take_first_increment(Executor& run, const Step<T>& step);
   template <int Dim>
-  void take_increment(Executor& run, const StepView<T>& step);
+  void take_increment(Executor& run, const Step<T>& step);
 
   int dim_;
   bool walls_again_;

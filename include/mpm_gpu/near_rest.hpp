@@ -25,21 +25,21 @@ class NearRest final : public Stage<T> {
   /// `rest` outlives this object. `reach`: as of HomeBlocks.
   NearRest(mpm::HostRest& rest, const GridView& grid, double reach);
 
-  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
-  void end_step(Executor& run, const StepView<T>& step, double start, const Taken& taken) override;
+  void begin_step(Executor& run, Step<T>& step, double start, long sorts) override;
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override;
+  void end_step(Executor& run, const Step<T>& step, double start, const Taken& taken) override;
   std::size_t bytes() const override { return home_.bytes(); }
 
   /// Lets the host look at the forces, before contact and conditions act.
-  void find_unrest(Executor& run, const StepView<T>& step);
+  void find_unrest(Executor& run, const Step<T>& step);
 
  private:
   mpm::Grid& grid() { return *rest_.fields().front(); }
   /// Takes the blocks that particles were sorted into.
   void take_homes();
   /// Takes the blocks of nodes that are copied.
-  void choose(Executor& run, const StepView<T>& step);
-  void get(Executor& run, const StepView<T>& step, const double* from, mpm::NodalField& to);
+  void choose(Executor& run, const Step<T>& step);
+  void get(Executor& run, const Step<T>& step, const double* from, mpm::NodalField& to);
   /// Numbers of the chosen blocks, as they lie in an upload.
   const double* packed(mpm::NodalField& from, std::vector<double>& room);
 
@@ -63,7 +63,7 @@ template <class T>
 class UnrestAtBorder final : public Stage<T> {
  public:
   explicit UnrestAtBorder(NearRest<T>& rest) : rest_(rest) {}
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override {
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override {
     if (hook == mpm::Hook::momentum_updated) rest_.find_unrest(run, step);
   }
 

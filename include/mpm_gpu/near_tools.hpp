@@ -20,7 +20,7 @@ class NearTools {
 
   /// Puts particles out, as they are after `step`, in whose sort `map` and the blocks of `grid` were found. Returns
   /// true if any lay in a body.
-  bool put_out(Executor& run, const StepView<T>& step, const SoilMap<T>& map, const mpm::Grid& grid);
+  bool put_out(Executor& run, const Step<T>& step, const SoilMap<T>& map, const mpm::Grid& grid);
 
  private:
   const mpm::OutOfTools& out_;

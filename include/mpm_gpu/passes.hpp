@@ -18,7 +18,7 @@ enum class Update : int { usf, usl, usavg, implicit };
 /// The passes of a step, which Solver puts in their order.
 template <class T>
 struct Passes {
-  using Pass = void (*)(Executor&, const StepView<T>&);
+  using Pass = void (*)(Executor&, const Step<T>&);
   Pass domains;             ///< stretch of boxes for this step; null of a shape function that does not stretch
   Pass momentum[2];         ///< m, m v and v on nodes, v as walls let it be for the strain; with APIC's affine field
   Pass gradient;            ///< grad v of particles
@@ -31,20 +31,20 @@ struct Passes {
 
   // Loads on particles: acceleration of these, in the place of gradients; their force at the nodes, by LoadSpread,
   // added to what is there or not; that of tractions; power of both at each node.
-  void (*load_of_particles)(Executor&, const StepView<T>&, const LoadView&);
-  void (*load[2])(Executor&, const StepView<T>&, bool adds);
-  void (*traction)(Executor&, const StepView<T>&, const TractionView&, bool adds);
-  void (*load_power)(Executor&, const StepView<T>&, double* power);
+  void (*load_of_particles)(Executor&, const Step<T>&, const LoadView&);
+  void (*load[2])(Executor&, const Step<T>&, bool adds);
+  void (*traction)(Executor&, const Step<T>&, const TractionView&, bool adds);
+  void (*load_power)(Executor&, const Step<T>&, double* power);
   /// Holds nodes at prescribed velocities.
-  void (*hold)(Executor&, const StepView<T>&, const HeldView&, HeldPart);
+  void (*hold)(Executor&, const Step<T>&, const HeldView&, HeldPart);
   /// Puts particles outside the grid back (leaving_passes.hpp).
-  void (*put_back)(Executor&, const StepView<T>&, double* numbers);
+  void (*put_back)(Executor&, const Step<T>&, double* numbers);
 
   // Volume of liquids (liquid_passes.hpp): volumes over mass of the particles of one set, that of `start` or times J;
   // fullness of nodes from those; what the particles of one set see of it, in the place of gradients.
-  void (*volumes)(Executor&, const StepView<T>&, int set, double start, bool stays, double* volume);
-  void (*fullness)(Executor&, const StepView<T>&, const double* volume, double cell, double* fullness);
-  void (*fullness_to_particles)(Executor&, const StepView<T>&, int set, const double* fullness);
+  void (*volumes)(Executor&, const Step<T>&, int set, double start, bool stays, double* volume);
+  void (*fullness)(Executor&, const Step<T>&, const double* volume, double cell, double* fullness);
+  void (*fullness_to_particles)(Executor&, const Step<T>&, int set, const double* fullness);
 };
 
 // The same for any shape function and precision (prescribed_passes.hpp, leaving_passes.hpp).
@@ -57,22 +57,22 @@ void copy_keys(Executor& run, const NodeView& nodes, std::uint64_t* to);
 
 /// Strain and stress of the particles of one set, by its law.
 template <class T>
-using LawPass = void (*)(Executor&, const StepView<T>&, int set, const void* law);
+using LawPass = void (*)(Executor&, const Step<T>&, int set, const void* law);
 /// Mean stresses of the cells of one set (mechanics/stress_average.hpp).
 template <class T>
-using AveragePass = void (*)(Executor&, const StepView<T>&, int set, const void* law);
+using AveragePass = void (*)(Executor&, const Step<T>&, int set, const void* law);
 /// Rate at which each particle of one set crosses cells of this edge [m], at its number [1/s] (kernel/survey.hpp).
 template <class T>
-using RatePass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double cell, double* rates);
+using RatePass = void (*)(Executor&, const Step<T>&, int set, const void* law, double cell, double* rates);
 
 /// Sums over the particles of one set; where all have the same mass, as if it were 1.
 template <class T>
-using TotalsPass = Totals (*)(Executor&, const StepView<T>&, int set, const void* law, Buffer<Totals>& room);
+using TotalsPass = Totals (*)(Executor&, const Step<T>&, int set, const void* law, Buffer<Totals>& room);
 
 /// Relaxes J of the particles of one liquid over the time `waited` [s]; `law` is on the host. `lost`: energy that each
 /// particle loses, at its number [J].
 template <class T>
-using RelaxPass = void (*)(Executor&, const StepView<T>&, int set, const void* law, double waited, double* lost);
+using RelaxPass = void (*)(Executor&, const Step<T>&, int set, const void* law, double waited, double* lost);
 
 /// In three dimensions or, with two axes, plane strain. The last argument tells the precision.
 const Passes<double>& passes(int dim, Shape shape, double);

@@ -25,13 +25,13 @@ class Prescribed final : public Stage<T> {
              const mpm::GridLayout& layout, const Passes<T>& passes);
 
   void make_room(Executor& run, long nodes) override;
-  void begin_step(Executor& run, StepView<T>& step, double start, long sorts) override;
-  void act(mpm::Hook hook, Executor& run, const StepView<T>& step) override;
+  void begin_step(Executor& run, Step<T>& step, double start, long sorts) override;
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override;
   void tell_modules() override;
   std::size_t bytes() const override;
 
  private:
-  void find_blocks(Executor& run, const StepView<T>& step);
+  void find_blocks(Executor& run, const Step<T>& step);
   /// Lists of the nodes that are held now, for kernels.
   void upload_nodes();
   void upload_velocities();

@@ -21,7 +21,7 @@ class SoilMap {
 
   void make_room(long nodes);
   /// Lets a grid of the host have the blocks of the table, and the nodes at rest of `rest`, which may be null.
-  void take_blocks(Executor& run, const StepView<T>& step, const SoilPassTable<T>& passes, mpm::Grid& grid,
+  void take_blocks(Executor& run, const Step<T>& step, const SoilPassTable<T>& passes, mpm::Grid& grid,
                    mpm::HostRest* rest);
   /// Takes over what was found of that grid since.
   void take_grid(const mpm::SoilGrid& grid);

@@ -88,38 +88,38 @@ struct SoilPassTable {
   /// Numbers that the particles of a set give to cells. `soil`: constants, with pointers to the particles.
   void (*numbers)(Executor&, const SetView&, const mpm_kernel::SoilParticles<T>& soil, const SoilView<T>&);
   /// Velocities with gravity and loads, and inverse masses.
-  void (*load)(Executor&, const StepView<T>&, const SoilView<T>&);
+  void (*load)(Executor&, const Step<T>&, const SoilView<T>&);
   /// The cells of a soil, from the sets that are of it.
-  void (*cells)(Executor&, const StepView<T>&, const SoilView<T>&, int soil, double dt,
+  void (*cells)(Executor&, const Step<T>&, const SoilView<T>&, int soil, double dt,
                 const mpm_kernel::SoilConstants& constants);
   /// Gives nodes the momentum of the stresses in the blocks of one colour, by their numbers.
-  void (*push)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* blocks, long count);
+  void (*push)(Executor&, const Step<T>&, const SoilView<T>&, const std::int32_t* blocks, long count);
   /// Sweeps blocks of one colour that have a mark, by their numbers; `marked`, [block].
-  void (*sweep)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* blocks, long count,
+  void (*sweep)(Executor&, const Step<T>&, const SoilView<T>&, const std::int32_t* blocks, long count,
                 const std::uint8_t* marked, bool backwards);
   /// [block]: sums of the changes of all members.
   void (*changes)(Executor&, const SoilView<T>&, long blocks, mpm_kernel::SweepChange* to);
   /// Lets stresses and velocities go on by `factor` times what they have changed since the last call.
-  void (*go_on)(Executor&, const StepView<T>&, const SoilView<T>&, T factor);
+  void (*go_on)(Executor&, const Step<T>&, const SoilView<T>&, T factor);
   void (*go_on_in_rows)(Executor&, const RowsView<T>&, long rows, long walls, T factor);
   /// Solves the contacts of blocks of one colour, of which `rows` has the ranges.
   void (*meet)(Executor&, const SoilView<T>&, const RowsView<T>& rows, long count);
   /// Finds what held components take of stresses; `partial`: room for the sums of groups of nodes.
-  HeldSums (*held)(Executor&, const StepView<T>&, const SoilView<T>&, Buffer<HeldSums>& partial);
+  HeldSums (*held)(Executor&, const Step<T>&, const SoilView<T>&, Buffer<HeldSums>& partial);
   /// Impulses that stresses give to components at rest of some nodes, by their numbers: three of each.
-  void (*held_at_rest)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* numbers, long count,
+  void (*held_at_rest)(Executor&, const Step<T>&, const SoilView<T>&, const std::int32_t* numbers, long count,
                        double* to);
   /// Finds the motion of all cells, for the particles.
-  void (*motion)(Executor&, const StepView<T>&, const SoilView<T>&);
+  void (*motion)(Executor&, const Step<T>&, const SoilView<T>&);
   /// Strain and stress of the particles of a set, whose soil has this number.
-  void (*take)(Executor&, const StepView<T>&, const SetView&, const mpm_kernel::SoilParticles<T>& soil,
-               const SoilView<T>&, int number);
+  void (*take)(Executor&, const Step<T>&, const SetView&, const mpm_kernel::SoilParticles<T>& soil, const SoilView<T>&,
+               int number);
   /// Sums of what nodes do beside moving, before store().
-  DeedSums (*deeds)(Executor&, const StepView<T>&, const SoilView<T>&, Buffer<DeedSums>& partial);
+  DeedSums (*deeds)(Executor&, const Step<T>&, const SoilView<T>&, Buffer<DeedSums>& partial);
   /// Gives the grid the velocities that were found.
-  void (*store)(Executor&, const StepView<T>&, const SoilView<T>&);
+  void (*store)(Executor&, const Step<T>&, const SoilView<T>&);
   /// Gives components at rest of some nodes the velocity that they would have, with these impulses, three of each.
-  void (*store_at_rest)(Executor&, const StepView<T>&, const SoilView<T>&, const std::int32_t* numbers, long count,
+  void (*store_at_rest)(Executor&, const Step<T>&, const SoilView<T>&, const std::int32_t* numbers, long count,
                         const double* impulses);
   /// Copies nodes by their numbers, to a list or from one.
   void (*pack)(Executor&, const SoilView<T>&, const std::int32_t* numbers, long count, mpm_kernel::SoilNode<T>* to);
@@ -128,7 +128,7 @@ struct SoilPassTable {
   /// Copies impulses of rows, three numbers each.
   void (*impulses)(Executor&, const RowsView<T>&, long rows, long walls, T* to);
   /// [block]: 1 where a block holds particles.
-  void (*owners)(Executor&, const StepView<T>&, std::uint8_t* to);
+  void (*owners)(Executor&, const Step<T>&, std::uint8_t* to);
 };
 
 const SoilPassTable<double>& soil_passes(int dim, double);

@@ -14,6 +14,9 @@
 // Implicit: momentum, the velocity with gravity and loads alone, the stage that solves the step (implicit_soil.hpp),
 // move. Stages that a scene needs beside these (stage.hpp) act between the passes.
 //
+// Where a scene needs nothing of the host in a step, a step is recorded and replayed (course.hpp), and the host waits
+// when it looks; else it waits for the checks of each step. The bits are the same.
+//
 // Nothing is allocated in a step after make_room(), which is called between sync periods, but for lists of the nodes
 // near rigid bodies and of those that moving regions hold, where they outgrow their room.
 #pragma once
@@ -24,6 +27,7 @@
 #include <vector>
 
 #include "mpm_gpu/cells.hpp"
+#include "mpm_gpu/course.hpp"
 #include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/impulses.hpp"
 #include "mpm_gpu/passes.hpp"
@@ -95,6 +99,10 @@ class Solver {
   /// Makes a step of `dt` [s] that begins at `start` [s], for stages that depend on time. @throws GpuError naming a
   /// particle that has failed; nothing can be stepped after that
   void step(double dt, double start = 0.0);
+  /// Waits for the steps, where the host has not waited for each. @throws GpuError as step()
+  void look();
+  /// False: the host waits for each step, whether or not it has to.
+  void let_replay(bool replays) { may_replay_ = replays; }
 
   /// Lets a stage act in the steps from here on.
   void add(std::unique_ptr<Stage<T>> stage);
@@ -125,6 +133,7 @@ class Solver {
   Totals totals(int set);
   /// Momentum of all particles along the grid's axes [N s].
   std::array<double, 3> momentum();
+  /// Numbers of both up to the last look.
   long steps() const { return steps_; }
   long sorts() const { return sorts_; }
   /// Memory in use, of particles and of all [bytes].
@@ -132,23 +141,30 @@ class Solver {
   std::size_t bytes();
 
  private:
-  void sort();
-  void average(const StepView<T>& now);
-  void momentum(const StepView<T>& now) { passes_->momentum[method_.motion == mpm_kernel::kAffine](run_, now); }
-  StepView<T> view(double dt);
+  /// True if no step needs anything of the host.
+  bool replays() const;
+  void replay(double dt);
+  /// `stay`: addresses of all arrays do, and the host waits for nothing.
+  void sort(bool stay);
+  /// All passes of a step but its checks.
+  Step<T> pass(double dt, double start, bool stay);
+  [[noreturn]] void fail(std::uint32_t fault, std::uint32_t id, const double* place, long step) const;
+  void average(const Step<T>& now);
+  void momentum(const Step<T>& now) { passes_->momentum[method_.motion == mpm_kernel::kAffine](run_, now); }
+  Step<T> view(double dt);
   /// True if strain is found at the end of a step.
   bool strains_last() const { return method_.update == Update::usl || method_.update == Update::usavg; }
   /// Lets the stages act at a hook.
-  void act(mpm::Hook hook, const StepView<T>& now) {
+  void act(mpm::Hook hook, const Step<T>& now) {
     for (auto& stage : stages_) stage->act(hook, run_, now);
   }
   /// Velocity gradient, strain and stress over `dt` of the particles, from the velocity of the nodes.
-  void strain(StepView<T> now, double dt);
+  void strain(Step<T> now, double dt);
   /// Adds the increments of XPIC and FMPM to the velocity of the nodes.
-  void filter(StepView<T> now);
+  void filter(Step<T> now);
   /// Returns what is kept of what particles lose in their update in this step.
   Counting counting(const StepSettings& settings) const;
-  void check(const StepView<T>& now, double start);
+  void check(const Step<T>& now, double start);
   template <int Dim>
   void account(double dt);
   CellTable::Places places() const {
@@ -156,21 +172,9 @@ class Solver {
   }
 
   // Sums are constexpr, so that kernels may call them, too.
-  /// Faults of the particles in a step, numbers of the first ones; energy that PIC takes.
-  struct OfParticles {
-    static constexpr std::uint32_t kNone = 0xffffffffU;
-    bool left = false;
-    std::uint32_t outside = kNone, inverted = kNone;
-    constexpr OfParticles& operator+=(const OfParticles& other) {
-      left = left || other.left;
-      outside = outside < other.outside ? outside : other.outside;
-      inverted = inverted < other.inverted ? inverted : other.inverted;
-      return *this;
-    }
-  };
-  /// The same in a step in which what they lose is counted.
+  /// Faults of the particles in a step in which what they lose is counted.
   struct OfCounted {
-    OfParticles faults;
+    Faults faults;
     Taken taken;
     constexpr OfCounted& operator+=(const OfCounted& other) {
       faults += other.faults;
@@ -219,7 +223,7 @@ class Solver {
   Buffer<double> held_, held_more_, left_, averaged_;  ///< those of NodeView; empty where it has none
   Buffer<double> increment_;                           ///< empty without XPIC and FMPM
   Buffer<SumsOfNodes> of_nodes_;
-  Buffer<OfParticles> of_particles_;
+  Buffer<Faults> of_particles_;
   Buffer<OfCounted> of_counted_;  ///< empty where nothing is counted
   Buffer<Totals> of_totals_;
   Buffer<Faster> of_faster_;
@@ -227,6 +231,12 @@ class Solver {
   Buffer<Impulses> impulses_there_;  ///< those of the steps since the last call of impulses()
   bool counted_ = false;             ///< there was such a step
   std::vector<std::unique_ptr<Stage<T>>> stages_;
+  bool may_replay_ = true, has_replayed_ = false;  ///< the last step was replayed
+  bool looked_ = true;                             ///< no step has been replayed since the last look
+  Course course_;
+  card::Recording recording_;
+  double recorded_dt_ = 0.0;      ///< step that is recorded [s]
+  long recorded_generation_ = 0;  ///< generation of the table of cells as it was recorded
   bool must_sort_ = true;
   long steps_ = 0, sorts_ = 0;
 };

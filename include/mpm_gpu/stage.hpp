@@ -21,14 +21,14 @@ class Stage {
   virtual void make_room(Executor&, long /*nodes*/) {}
   /// A step begins at `start` [s], before which particles have been sorted so often: chooses its settings and lays
   /// arrays beside its own. @throws mpm::ModuleError
-  virtual void begin_step(Executor&, StepView<T>&, double /*start*/, long /*sorts*/) {}
+  virtual void begin_step(Executor&, Step<T>&, double /*start*/, long /*sorts*/) {}
   /// Acts as a stage does at the hook. At `forces_gathered`, which comes before the internal force here,
   /// NodeView::load is to be set.
-  virtual void act(mpm::Hook, Executor&, const StepView<T>&) {}
+  virtual void act(mpm::Hook, Executor&, const Step<T>&) {}
   /// Asked when particles are outside the grid: true when it has put them all back. @throws mpm::ModuleError
-  virtual bool put_back(Executor&, const StepView<T>&) { return false; }
+  virtual bool put_back(Executor&, const Step<T>&) { return false; }
   /// The step is done, and its sums are known.
-  virtual void end_step(Executor&, const StepView<T>&, double /*start*/, const Taken&) {}
+  virtual void end_step(Executor&, const Step<T>&, double /*start*/, const Taken&) {}
   /// Books with modules of the solver what was counted since the last call.
   virtual void tell_modules() {}
   virtual std::size_t bytes() const { return 0; }

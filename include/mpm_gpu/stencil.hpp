@@ -168,6 +168,7 @@ void each_particle_of(const StepView<T>& step, long node, const int* number, Vis
   using Weights = Stencil<T, Dim, ShapeClass, What>;
   constexpr int kNodes = Weights::kNodes, kReach = kNodes / 2;
   const long block = node / nodes_of_block(Dim);
+  if (step.nodes.key[block] == kNoBlock) return;
   const Local<Dim> local = local_of<Dim>(node);
   for (int s = 0; s < step.set_count; ++s) {
     const SetView set = step.sets_there[s];

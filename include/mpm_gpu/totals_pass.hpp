@@ -50,7 +50,7 @@ struct TotalsKernel {
     return one;
   }
 
-  static Totals run(Executor& run, const StepView<T>& step, int number, const void* law, Buffer<Totals>& room) {
+  static Totals run(Executor& run, const Step<T>& step, int number, const void* law, Buffer<Totals>& room) {
     const SetView& set = step.sets[number];
     return run.reduce<Totals>("gpu: sums for reports", set.count, TotalsKernel{step.particles, law, set.first}, room);
   }

@@ -26,7 +26,7 @@ class Tractions {
   /// Finds the tractions of a step. @throws mpm::LoadError
   void begin_step(double start, double dt);
   /// Adds their forces at the nodes to NodeView::load, or sets it to them.
-  void act(Executor& run, const StepView<T>& step, bool adds);
+  void act(Executor& run, const Step<T>& step, bool adds);
   /// Books what they have given since the last call, and this work [J].
   void tell_modules(double work);
   std::size_t bytes() const { return acts_.bytes() + face_.bytes() + force_.bytes(); }

@@ -19,6 +19,8 @@ constexpr int kBeside = 8;       ///< nodes below the domain's first that have a
 constexpr int nodes_of_block(int dim) { return dim == 3 ? 64 : 16; }
 constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : 9; }
 
+constexpr std::uint64_t kNoBlock = ~std::uint64_t{0};  ///< key of a place in the table that no block takes
+
 /// Place of a key in an ascending list, which holds it; -1 if it does not.
 constexpr std::int32_t place_of(const std::uint64_t* keys, long count, std::uint64_t key) {
   long first = 0, end = count;
@@ -217,15 +219,20 @@ struct HeldView {
 /// Velocity that is to be held there.
 enum class HeldPart : int { strain_at_start, strain_at_end, motion, first_increment, increment };
 
+/// A step as kernels are given it.
 template <class T>
 struct StepView {
   GridView grid;
   ParticleView<T> particles;
   NodeView nodes;
-  const SetView* sets;        ///< for the host, which hands out the passes
-  const SetView* sets_there;  ///< the same, for kernels
+  const SetView* sets_there;
   int set_count;
   StepSettings settings;
+};
+/// The same for the host, which hands out the passes; kernels are given no more than the view.
+template <class T>
+struct Step : StepView<T> {
+  const SetView* sets;
 };
 
 }  // namespace mpm_gpu

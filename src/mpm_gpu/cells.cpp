@@ -20,33 +20,45 @@ void CellTable::make_room(Executor& run, const Places& places, const std::vector
   for (const SetView& set : sets) particles_ += set.count;
   sets_ = static_cast<int>(sets.size());
   for (auto* buffer : {&key_, &other_key_, &cell_key_}) buffer->fit(particles_);
-  for (auto* buffer : {&order_, &other_order_, &flag_, &node_}) buffer->fit(particles_);
-  run.reserve(key_.size());
+  for (auto* buffer : {&order_, &other_order_, &flag_, &node_}) buffer->fit(particles_ + 1);
+  counts_.fit(2);
+  run.reserve(flag_.size());
   find_keys(run, places, sets);
-  const long owners = find_owners(run);
+  find_owners(run);
+  const long owners = flag_.get(particles_);
   if (owners_room_ >= owners + owners / 2) return;
+  ++generation_;
   owners_room_ = 2 * owners + 64;
   const long candidates = owners_room_ * around_;
   // Blocks around others are shared: of the owners in a compact body fewer than twice as many blocks are in use.
   room_ = std::min(candidates, 4 * owners_room_ + 512);
   for (auto* buffer : {&key_, &other_key_}) buffer->fit(std::max(candidates, particles_));
-  for (auto* buffer : {&order_, &other_order_, &flag_}) buffer->fit(std::max(candidates, particles_));
-  run.reserve(key_.size());
+  for (auto* buffer : {&order_, &other_order_, &flag_}) buffer->fit(std::max(candidates, particles_) + 1);
+  run.reserve(flag_.size());
   owner_.fit(owners_room_);
   block_.fit(room_);
   neighbours_.fit(room_ * around_);
   for (auto* buffer : {&begin_, &end_}) buffer->fit(room() * sets_);
 }
 
-void CellTable::sort(Executor& run, const Places& places, const std::vector<SetView>& sets) {
-  find_keys(run, places, sets);
-  const long owners = find_owners(run);
-  if (owners > owners_room_) {
+void CellTable::require_room(long owners, long blocks) const {
+  const auto require = [](const char* spread, long number, long room) {
+    if (number <= room) return;
     throw GpuError(
-        fmt::format("gpu: particles have spread to {} blocks of the grid in a sync period, and there is room "
+        fmt::format("gpu: particles have spread {} {} blocks of the grid in a sync period, and there is room "
                     "for {}: shorten time.sync",
-                    owners, owners_room_));
-  }
+                    spread, number, room));
+  };
+  require("to", owners, owners_room_);
+  require("over", blocks, room_);
+}
+
+void CellTable::sort(Executor& run, const Places& places, const std::vector<SetView>& sets, Counts counts) {
+  find_keys(run, places, sets);
+  find_owners(run);
+  const bool waits = counts == Counts::waits_for;
+  const long owners = waits ? static_cast<long>(flag_.get(particles_)) : owners_room_;
+  require_room(owners, 0);
   // The arrays of keys and of the order have another use below: what the caller needs of them is kept.
   const std::uint64_t *key = key_.data(), nodes = per_block_;
   std::uint64_t* kept = cell_key_.data();
@@ -59,9 +71,18 @@ void CellTable::sort(Executor& run, const Places& places, const std::vector<SetV
   std::uint64_t* owner = owner_.data();
   const std::uint64_t block_keys = block_keys_;
   run.for_each("gpu: blocks", particles_, [=](long i) {
-    if (i == 0 || key[i] / nodes != key[i - 1] / nodes) owner[flag[i]] = key[i] / nodes % block_keys;
+    const bool is_first = i == 0 || key[i] / nodes != key[i - 1] / nodes;
+    if (is_first && flag[i] < owners) owner[flag[i]] = key[i] / nodes % block_keys;
   });
-  find_blocks(run, owners);
+  if (!waits) {
+    std::uint32_t* counted = counts_.data();
+    const long particles = particles_;
+    run.for_each("gpu: blocks", owners, [=](long i) {
+      if (i >= flag[particles]) owner[i] = kNoBlock;
+      if (i == 0) counted[0] = flag[particles];
+    });
+  }
+  find_blocks(run, owners, counts);
   run.for_each("gpu: sort", particles_, [=](long i) { order[i] = kept_order[i]; });
   find_ranges(run, static_cast<int>(sets.size()));
 }
@@ -97,42 +118,53 @@ void CellTable::find_keys(Executor& run, const Places& places, const std::vector
   }
 }
 
-long CellTable::find_owners(Executor& run) {
+void CellTable::find_owners(Executor& run) {
   run.stable_sort(key_.data(), order_.data(), other_key_.data(), other_order_.data(), particles_,
                   static_cast<std::uint64_t>(sets_) * block_keys_ * per_block_);
   const std::uint64_t *key = key_.data(), nodes = per_block_;
+  const long particles = particles_;
   std::uint32_t* flag = flag_.data();
-  run.for_each("gpu: blocks", particles_,
-               [=](long i) { flag[i] = i == 0 || key[i] / nodes != key[i - 1] / nodes ? 1U : 0U; });
-  return run.exclusive_scan(flag, flag, particles_);
+  run.for_each("gpu: blocks", particles + 1,
+               [=](long i) { flag[i] = i < particles && (i == 0 || key[i] / nodes != key[i - 1] / nodes) ? 1U : 0U; });
+  run.exclusive_scan(flag, flag, particles + 1);  // the last is the number of all
 }
 
-void CellTable::find_blocks(Executor& run, long owners) {
+void CellTable::find_blocks(Executor& run, long owners, Counts counts) {
   const GridView grid = grid_;
   const int dim = dim_;
   std::uint64_t *key = key_.data(), *block = block_.data();
-  const std::uint64_t* owner = owner_.data();
+  const std::uint64_t *owner = owner_.data(), none = block_keys_;
   std::uint32_t* flag = flag_.data();
   const int around = around_;
-  const long candidates = owners * around;
-  run.for_each("gpu: blocks", candidates,
-               [=](long i) { key[i] = neighbour_key(grid, dim, owner[i / around], static_cast<int>(i % around)); });
-  run.stable_sort(key, order_.data(), other_key_.data(), other_order_.data(), candidates, block_keys_);
-  run.for_each("gpu: blocks", candidates, [=](long i) { flag[i] = i == 0 || key[i] != key[i - 1] ? 1U : 0U; });
-  blocks_ = run.exclusive_scan(flag, flag, candidates);
-  if (blocks_ > room_) {
-    throw GpuError(
-        fmt::format("gpu: particles have spread over {} blocks of the grid in a sync period, and there is "
-                    "room for {}: shorten time.sync",
-                    blocks_, room_));
-  }
+  const long candidates = owners * around, room = room_;
   run.for_each("gpu: blocks", candidates, [=](long i) {
-    if (i == 0 || key[i] != key[i - 1]) block[flag[i]] = key[i];
+    const std::uint64_t of = owner[i / around];
+    key[i] = of == kNoBlock ? none : neighbour_key(grid, dim, of, static_cast<int>(i % around));
   });
+  run.stable_sort(key, order_.data(), other_key_.data(), other_order_.data(), candidates, none + 1);
+  run.for_each("gpu: blocks", candidates + 1, [=](long i) {
+    flag[i] = i < candidates && key[i] != none && (i == 0 || key[i] != key[i - 1]) ? 1U : 0U;
+  });
+  run.exclusive_scan(flag, flag, candidates + 1);
+  const bool waits = counts == Counts::waits_for;
+  blocks_ = waits ? static_cast<long>(flag_.get(candidates)) : room_;
+  require_room(0, blocks_);
+  run.for_each("gpu: blocks", candidates, [=](long i) {
+    if (key[i] != none && (i == 0 || key[i] != key[i - 1]) && flag[i] < room) block[flag[i]] = key[i];
+  });
+  if (!waits) {
+    std::uint32_t* counted = counts_.data();
+    run.for_each("gpu: blocks", room, [=](long i) {
+      if (i >= flag[candidates]) block[i] = kNoBlock;
+      if (i == 0) counted[1] = flag[candidates];
+    });
+  }
   std::int32_t* neighbours = neighbours_.data();
   const long blocks = blocks_;
   run.for_each("gpu: blocks", blocks * around, [=](long i) {
-    neighbours[i] = place_of(block, blocks, neighbour_key(grid, dim, block[i / around], static_cast<int>(i % around)));
+    const std::uint64_t of = block[i / around];
+    neighbours[i] =
+        of == kNoBlock ? -1 : place_of(block, blocks, neighbour_key(grid, dim, of, static_cast<int>(i % around)));
   });
 }
 
@@ -144,8 +176,10 @@ void CellTable::find_ranges(Executor& run, int sets) {
                       per_block = per_block_;
   run.for_each("gpu: ranges of cells", particles, [=](long i) {
     const std::uint64_t cell = key[i] % of_set;
-    const long at =
-        place_of(block, blocks, cell / per_block) * static_cast<long>(per_block) + static_cast<long>(cell % per_block);
+    const long place = place_of(block, blocks, cell / per_block);
+    node[i] = 0;
+    if (place < 0) return;  // there was no room for the block, and the run ends
+    const long at = place * static_cast<long>(per_block) + static_cast<long>(cell % per_block);
     const long row = static_cast<long>(key[i] / of_set) * nodes + at;
     node[i] = static_cast<std::uint32_t>(at);
     if (i == 0 || key[i] != key[i - 1]) begin[row] = static_cast<std::uint32_t>(i);
@@ -167,7 +201,7 @@ NodeView CellTable::view() const {
 std::size_t CellTable::bytes() const {
   std::size_t sum = neighbours_.bytes() + begin_.bytes() + end_.bytes();
   for (const auto* buffer : {&key_, &other_key_, &cell_key_, &owner_, &block_}) sum += buffer->bytes();
-  for (const auto* buffer : {&order_, &other_order_, &flag_, &node_}) sum += buffer->bytes();
+  for (const auto* buffer : {&order_, &other_order_, &flag_, &node_, &counts_}) sum += buffer->bytes();
   return sum;
 }
 

@@ -28,7 +28,7 @@ class RunDevice final : public mpm::Device {
   }
 
   void step(double start, double dt) override {
-    told([&] { run().solver().step(dt, start); });
+    told([&] { run().solver().step(dt, start); }, false);
   }
   void make_room() override {
     told([&] { run().solver().make_room(); });
@@ -43,14 +43,19 @@ class RunDevice final : public mpm::Device {
   }
   // Sums begin again at zero when they are taken: a run that goes on from a checkpoint has the same bits.
   OfWall take_wall(int face) override {
-    const Impulses::OfFace now = std::exchange(run().solver().impulses().face[face], {});
+    Impulses::OfFace now;
+    told([&] { now = std::exchange(run().solver().impulses().face[face], {}); });
     OfWall wall;
     wall.given.impulse = in_world({now.impulse[0], now.impulse[1], now.impulse[2]});
     wall.given.exchanged = now.exchanged;
     wall.loss = {now.friction, now.held};
     return wall;
   }
-  double take_averaged() override { return std::exchange(run().solver().impulses().averaged, 0.0); }
+  double take_averaged() override {
+    double averaged = 0.0;
+    told([&] { averaged = std::exchange(run().solver().impulses().averaged, 0.0); });
+    return averaged;
+  }
   mpm::HeldNodes held(int face) const override {
     mpm::HeldNodes nodes;
     const Solver<T>& solver = run().solver();
@@ -83,7 +88,7 @@ class RunDevice final : public mpm::Device {
     told([&] { run().write_to(sets, which); });
   }
   void take(const std::vector<ParticleSet>& sets) override {
-    told([&] { begin(sets); });
+    told([&] { begin(sets); }, false);
   }
 
  private:
@@ -102,10 +107,11 @@ class RunDevice final : public mpm::Device {
     for (int k = 0; k < layout_.dim(); ++k) vector[layout_.axis(k)] = along[k];
     return vector;
   }
-  /// The run knows the errors of modules alone.
+  /// Does it after a look at the steps up to now, or without one. The run knows the errors of modules alone.
   template <class Work>
-  static void told(Work&& work) {
+  void told(Work&& work, bool looks = true) const {
     try {
+      if (looks) run().solver().look();
       work();
     } catch (const GpuError& error) {
       throw mpm::ModuleError(error.what());

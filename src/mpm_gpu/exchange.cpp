@@ -278,6 +278,7 @@ DeviceRun<T>::DeviceRun(const SimulationDefinition& definition, const std::vecto
 
 template <class T>
 void DeviceRun<T>::write_to(std::vector<ParticleSet>& sets, mpm::Device::Numbers which) {
+  solver_.look();
   const ParticleStore<T>& store = solver_.particles();
   const std::vector<std::uint32_t> id = store.id.download();
   for (std::size_t s = 0; s < sets.size(); ++s) {

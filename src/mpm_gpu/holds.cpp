@@ -1,5 +1,7 @@
 #include "mpm_gpu/holds.hpp"
 
+#include <algorithm>
+
 namespace mpm_gpu {
 namespace {
 
@@ -22,7 +24,7 @@ void WallHolds::make_room(Executor& run, long nodes) {
   grow(run, key_, other_key_, nodes / per_block_);
 }
 
-void WallHolds::carry(Executor& run, const NodeView& now) {
+void WallHolds::carry(Executor& run, const NodeView& now, bool stay) {
   if (!kept_) return;
   const std::uint16_t* from = hold_.data();
   std::uint16_t* to = other_.data();
@@ -32,7 +34,7 @@ void WallHolds::carry(Executor& run, const NodeView& now) {
     const long block = place_of(old_key, old_blocks, key[node / per_block]);
     to[node] = block < 0 ? std::uint16_t{0} : from[block * per_block + node % per_block];
   });
-  hold_.swap(other_);
+  run.replace("gpu: walls", hold_, other_, now.nodes, stay);
   std::uint64_t* kept = key_.data();
   run.for_each("gpu: walls", now.blocks, [=](long i) { kept[i] = key[i]; });
   blocks_ = now.blocks;
@@ -41,9 +43,12 @@ void WallHolds::carry(Executor& run, const NodeView& now) {
 WallHolds::OfBlocks WallHolds::download() const {
   OfBlocks all;
   all.keys.resize(static_cast<std::size_t>(blocks_));
-  all.bits.resize(static_cast<std::size_t>(blocks_ * per_block_));
   key_.download(all.keys.data(), blocks_);
-  hold_.download(all.bits.data(), blocks_ * per_block_);
+  const auto end = std::lower_bound(all.keys.begin(), all.keys.end(), kNoBlock);
+  const std::ptrdiff_t blocks = end - all.keys.begin();
+  all.keys.erase(end, all.keys.end());
+  all.bits.resize(static_cast<std::size_t>(blocks * per_block_));
+  hold_.download(all.bits.data(), blocks * per_block_);
   return all;
 }
 

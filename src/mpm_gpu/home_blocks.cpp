@@ -11,7 +11,7 @@ void HomeBlocks<T>::take(const std::vector<std::uint32_t>& home, const std::vect
 }
 
 template <class T>
-bool HomeBlocks<T>::any_left(Executor& run, const StepView<T>& step) {
+bool HomeBlocks<T>::any_left(Executor& run, const Step<T>& step) {
   const ParticleView<T> particles = step.particles;
   const GridView grid = step.grid;
   const int dim = dim_;

@@ -53,7 +53,7 @@ void ImplicitSoil<T>::make_room(Executor&, long nodes) {
 }
 
 template <class T>
-void ImplicitSoil<T>::begin_step(Executor&, StepView<T>& step, double start, long sorts) {
+void ImplicitSoil<T>::begin_step(Executor&, Step<T>& step, double start, long sorts) {
   start_ = start;
   step.settings.solved = true;
   sorts_ = sorts;
@@ -61,7 +61,7 @@ void ImplicitSoil<T>::begin_step(Executor&, StepView<T>& step, double start, lon
 
 // Sleep, which acts before, has found which nodes it holds.
 template <class T>
-void ImplicitSoil<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
+void ImplicitSoil<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
   if (hook != mpm::Hook::momentum_updated) return;
   run_ = &run;
   step_ = step;

@@ -17,7 +17,7 @@ PutsBack<T>::PutsBack(mpm::Leaving* leaving, std::uint64_t limit, long particles
 }
 
 template <class T>
-bool PutsBack<T>::put_back(Executor& run, const StepView<T>& step) {
+bool PutsBack<T>::put_back(Executor& run, const Step<T>& step) {
   const long count = step.particles.count;
   passes_.put_back(run, step, numbers_.data());
   taken_.add(run, "gpu: accounts", numbers_.data(), count, 1);

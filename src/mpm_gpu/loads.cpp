@@ -108,7 +108,7 @@ void Loads<T>::make_room(Executor&, long nodes) {
 }
 
 template <class T>
-void Loads<T>::begin_step(Executor&, StepView<T>& step, double start, long) {
+void Loads<T>::begin_step(Executor&, Step<T>& step, double start, long) {
   step.settings.driven = true;
   step.nodes.load = load_.data();
   const double dt = step.settings.dt, middle = start + 0.5 * dt;
@@ -138,7 +138,7 @@ LoadView Loads<T>::view_of(OfSpread& spread) const {
 }
 
 template <class T>
-void Loads<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
+void Loads<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
   if (hook == mpm::Hook::forces_gathered) {
     bool adds = false;
     for (std::size_t s = 0; s < kSpreads; ++s) {

@@ -36,7 +36,7 @@ void NearBodies<T>::choose() {
 }
 
 template <class T>
-void NearBodies<T>::begin_step(Executor& run, StepView<T>& step, double, long sorts) {
+void NearBodies<T>::begin_step(Executor& run, Step<T>& step, double, long sorts) {
   const bool sorted = sorts != sorts_;
   if (sorted) copies_.download_keys(run, step.nodes, keys_);
   choose();
@@ -89,7 +89,7 @@ std::vector<std::uint64_t> NearBodies<T>::fill_groups(int sets, std::vector<std:
 }
 
 template <class T>
-void NearBodies<T>::take(Executor& run, const StepView<T>& step) {
+void NearBodies<T>::take(Executor& run, const Step<T>& step) {
   copies_.download_ranges(run, step, chosen_, ranges_);
   const std::vector<std::uint64_t> owners = fill_groups(step.set_count, particles_, of_block_);
   grid().rebuild(owners, 1, of_block_);
@@ -123,7 +123,7 @@ void NearBodies<T>::take(Executor& run, const StepView<T>& step) {
 }
 
 template <class T>
-void NearBodies<T>::download_particles(Executor& run, const StepView<T>& step) {
+void NearBodies<T>::download_particles(Executor& run, const Step<T>& step) {
   std::vector<mpm::ParticleSet>& sets = contact_.sets();
   copies_.download_particles(run, step, static_cast<int>(sets.front().f.size()), numbers_);
   const std::size_t all = particles_.size();
@@ -157,7 +157,7 @@ void NearBodies<T>::find_velocities() {
 }
 
 template <class T>
-void NearBodies<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
+void NearBodies<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
   mpm::Grid& near = grid();
   const NodeView& nodes = step.nodes;
   const auto get = [&](const double* from, mpm::NodalField& to) {

@@ -15,7 +15,7 @@ void NearCopies<T>::download_keys(Executor& run, const NodeView& nodes, std::vec
 }
 
 template <class T>
-void NearCopies<T>::download_ranges(Executor& run, const StepView<T>& step, const std::vector<std::int32_t>& blocks,
+void NearCopies<T>::download_ranges(Executor& run, const Step<T>& step, const std::vector<std::int32_t>& blocks,
                                     std::vector<std::uint32_t>& ranges) {
   const long near = static_cast<long>(blocks.size()), per_block = per_block_, all = step.nodes.nodes;
   const long rows = step.set_count * near * per_block;
@@ -49,7 +49,7 @@ void NearCopies<T>::take_blocks(Executor& run, const NodeView& nodes, const std:
 }
 
 template <class T>
-void NearCopies<T>::take_particles(Executor& run, const StepView<T>& step, const std::vector<std::uint32_t>& particles,
+void NearCopies<T>::take_particles(Executor& run, const Step<T>& step, const std::vector<std::uint32_t>& particles,
                                    std::vector<std::uint32_t>& ids, std::vector<double>& surface) {
   particles_ = static_cast<long>(particles.size());
   particle_.grow(particles_);
@@ -96,8 +96,7 @@ void NearCopies<T>::download(Executor& run, const NodeView& nodes, const double*
 }
 
 template <class T>
-void NearCopies<T>::download_particles(Executor& run, const StepView<T>& step, int components,
-                                       std::vector<double>& to) {
+void NearCopies<T>::download_particles(Executor& run, const Step<T>& step, int components, std::vector<double>& to) {
   const int dim = dim_, rows = 2 * dim + components;
   const long count = particles_;
   room_.grow(count * rows);
@@ -117,7 +116,7 @@ void NearCopies<T>::download_particles(Executor& run, const StepView<T>& step, i
 }
 
 template <class T>
-void NearCopies<T>::upload_places(Executor& run, const StepView<T>& step, const std::vector<double>& from) {
+void NearCopies<T>::upload_places(Executor& run, const Step<T>& step, const std::vector<double>& from) {
   const int dim = dim_;
   const long count = particles_;
   room_.grow(count * dim);
@@ -132,7 +131,7 @@ void NearCopies<T>::upload_places(Executor& run, const StepView<T>& step, const 
 
 template <class T>
 template <int Dim, class Kernel>
-void NearCopies<T>::each_returned(Executor& run, const StepView<T>& step, const Kernel& kernel) {
+void NearCopies<T>::each_returned(Executor& run, const Step<T>& step, const Kernel& kernel) {
   const GridView grid = step.grid;
   const std::uint64_t* keys = step.nodes.key;
   const double* room = room_.data();
@@ -147,7 +146,7 @@ void NearCopies<T>::each_returned(Executor& run, const StepView<T>& step, const 
 
 template <class T>
 template <int Dim>
-void NearCopies<T>::take_for_strain(Executor& run, const StepView<T>& step) {
+void NearCopies<T>::take_for_strain(Executor& run, const Step<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
   const bool again = walls_again_;
@@ -163,7 +162,7 @@ void NearCopies<T>::take_for_strain(Executor& run, const StepView<T>& step) {
 
 template <class T>
 template <int Dim>
-void NearCopies<T>::take_at_end(Executor& run, const StepView<T>& step) {
+void NearCopies<T>::take_at_end(Executor& run, const Step<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
   const double *acceleration = other_room_.data(), dt = step.settings.dt;
@@ -183,7 +182,7 @@ void NearCopies<T>::take_at_end(Executor& run, const StepView<T>& step) {
 
 template <class T>
 template <int Dim>
-void NearCopies<T>::take_first_increment(Executor& run, const StepView<T>& step) {
+void NearCopies<T>::take_first_increment(Executor& run, const Step<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
   const bool again = walls_again_;
@@ -195,7 +194,7 @@ void NearCopies<T>::take_first_increment(Executor& run, const StepView<T>& step)
 
 template <class T>
 template <int Dim>
-void NearCopies<T>::take_increment(Executor& run, const StepView<T>& step) {
+void NearCopies<T>::take_increment(Executor& run, const Step<T>& step) {
   const NodeView nodes = step.nodes;
   const GridView grid = step.grid;
   const bool mixed = nodes.work != nullptr;  // particles take this over as they gain an acceleration
@@ -219,13 +218,13 @@ void NearCopies<T>::upload(Buffer<double>& room, const double* from) {
 }
 
 template <class T>
-void NearCopies<T>::upload_for_strain(Executor& run, const StepView<T>& step, const double* velocity) {
+void NearCopies<T>::upload_for_strain(Executor& run, const Step<T>& step, const double* velocity) {
   upload(room_, velocity);
   dim_ == 3 ? take_for_strain<3>(run, step) : take_for_strain<2>(run, step);
 }
 
 template <class T>
-void NearCopies<T>::upload_at_end(Executor& run, const StepView<T>& step, const double* velocity,
+void NearCopies<T>::upload_at_end(Executor& run, const Step<T>& step, const double* velocity,
                                   const double* acceleration) {
   upload(room_, velocity);
   upload(other_room_, acceleration);
@@ -233,13 +232,13 @@ void NearCopies<T>::upload_at_end(Executor& run, const StepView<T>& step, const 
 }
 
 template <class T>
-void NearCopies<T>::upload_first_increment(Executor& run, const StepView<T>& step, const double* increment) {
+void NearCopies<T>::upload_first_increment(Executor& run, const Step<T>& step, const double* increment) {
   upload(room_, increment);
   dim_ == 3 ? take_first_increment<3>(run, step) : take_first_increment<2>(run, step);
 }
 
 template <class T>
-void NearCopies<T>::upload_increment(Executor& run, const StepView<T>& step, const double* increment) {
+void NearCopies<T>::upload_increment(Executor& run, const Step<T>& step, const double* increment) {
   upload(room_, increment);
   dim_ == 3 ? take_increment<3>(run, step) : take_increment<2>(run, step);
 }

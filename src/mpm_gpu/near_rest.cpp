@@ -13,7 +13,7 @@ NearRest<T>::NearRest(mpm::HostRest& rest, const GridView& grid, double reach)
       home_(layout_.dim(), reach) {}
 
 template <class T>
-void NearRest<T>::begin_step(Executor&, StepView<T>&, double, long sorts) {
+void NearRest<T>::begin_step(Executor&, Step<T>&, double, long sorts) {
   sorted_ = sorted_ || sorts != sorts_;
   sorts_ = sorts;
   const std::uint64_t generation = grid().blocks.generation();
@@ -44,7 +44,7 @@ void NearRest<T>::take_homes() {
 
 // A block of the host that no particle of the device is near any more has no mass.
 template <class T>
-void NearRest<T>::choose(Executor& run, const StepView<T>& step) {
+void NearRest<T>::choose(Executor& run, const Step<T>& step) {
   mpm::Grid& near = grid();
   here_.clear();
   there_.clear();
@@ -73,7 +73,7 @@ void NearRest<T>::choose(Executor& run, const StepView<T>& step) {
 }
 
 template <class T>
-void NearRest<T>::get(Executor& run, const StepView<T>& step, const double* from, mpm::NodalField& to) {
+void NearRest<T>::get(Executor& run, const Step<T>& step, const double* from, mpm::NodalField& to) {
   const std::size_t of_block = static_cast<std::size_t>(to.components() * layout_.nodes_per_block());
   numbers_.resize(here_.size() * of_block);
   copies_.download(run, step.nodes, from, to.components(), numbers_.data());
@@ -93,7 +93,7 @@ const double* NearRest<T>::packed(mpm::NodalField& from, std::vector<double>& ro
 // The device has accelerations of all forces, with gravity. Where walls hold nodes they have changed them, and no force
 // is asked for.
 template <class T>
-void NearRest<T>::find_unrest(Executor& run, const StepView<T>& step) {
+void NearRest<T>::find_unrest(Executor& run, const Step<T>& step) {
   mpm::Grid& near = grid();
   if (!here_.empty()) {
     get(run, step, step.nodes.mass, near.mass);
@@ -111,7 +111,7 @@ void NearRest<T>::find_unrest(Executor& run, const StepView<T>& step) {
 }
 
 template <class T>
-void NearRest<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
+void NearRest<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
   mpm::Grid& near = grid();
   const NodeView& nodes = step.nodes;
   const bool any = !here_.empty();
@@ -164,7 +164,7 @@ void NearRest<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
 }
 
 template <class T>
-void NearRest<T>::end_step(Executor& run, const StepView<T>& step, double, const Taken&) {
+void NearRest<T>::end_step(Executor& run, const Step<T>& step, double, const Taken&) {
   if (home_.any_left(run, step)) rest_.particle_left();
 }
 

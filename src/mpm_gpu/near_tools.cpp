@@ -16,7 +16,7 @@ NearTools<T>::NearTools(const mpm::OutOfTools& out, const mpm::SoilBodies& bodie
 }
 
 template <class T>
-bool NearTools<T>::put_out(Executor& run, const StepView<T>& step, const SoilMap<T>& map, const mpm::Grid& grid) {
+bool NearTools<T>::put_out(Executor& run, const Step<T>& step, const SoilMap<T>& map, const mpm::Grid& grid) {
   const std::size_t dim = static_cast<std::size_t>(layout_.dim());
   blocks_.clear();
   for (int b = 0; b < grid.blocks.size(); ++b) {

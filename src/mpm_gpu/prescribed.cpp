@@ -34,7 +34,7 @@ void Prescribed<T>::make_room(Executor&, long nodes) {
 }
 
 template <class T>
-void Prescribed<T>::begin_step(Executor& run, StepView<T>& step, double start, long sorts) {
+void Prescribed<T>::begin_step(Executor& run, Step<T>& step, double start, long sorts) {
   moved_ = false;
   conditions_.begin_step(start, step.settings.dt);
   const bool sorted = sorts != std::exchange(sorts_, sorts);
@@ -47,7 +47,7 @@ void Prescribed<T>::begin_step(Executor& run, StepView<T>& step, double start, l
 }
 
 template <class T>
-void Prescribed<T>::find_blocks(Executor& run, const StepView<T>& step) {
+void Prescribed<T>::find_blocks(Executor& run, const Step<T>& step) {
   copy_keys(run, step.nodes, key_.data());
   keys_.resize(static_cast<std::size_t>(step.nodes.blocks));
   key_.download(keys_.data(), step.nodes.blocks);
@@ -116,7 +116,7 @@ HeldView Prescribed<T>::view() {
 }
 
 template <class T>
-void Prescribed<T>::act(mpm::Hook hook, Executor& run, const StepView<T>& step) {
+void Prescribed<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
   const auto hold = [&](HeldPart part) { passes_.hold(run, step, view(), part); };
   switch (hook) {
     case mpm::Hook::before_strain:

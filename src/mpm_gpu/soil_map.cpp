@@ -14,7 +14,7 @@ void SoilMap<T>::make_room(long nodes) {
 }
 
 template <class T>
-void SoilMap<T>::take_blocks(Executor& run, const StepView<T>& step, const SoilPassTable<T>& passes, mpm::Grid& grid,
+void SoilMap<T>::take_blocks(Executor& run, const Step<T>& step, const SoilPassTable<T>& passes, mpm::Grid& grid,
                              mpm::HostRest* rest) {
   const long all = step.nodes.blocks;
   const int dim = layout_.dim();

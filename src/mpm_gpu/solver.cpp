@@ -69,6 +69,7 @@ Solver<T>::Solver(const GridView& grid, int dim, const Method& method, std::vect
 
 template <class T>
 void Solver<T>::make_room() {
+  look();
   cells_.make_room(run_, places(), sets_);
   holds_.make_room(run_, cells_.room());
   mass_.fit(cells_.room());
@@ -99,16 +100,17 @@ void Solver<T>::let_walls_act_again() {
 }
 
 template <class T>
-void Solver<T>::sort() {
-  cells_.sort(run_, places(), sets_);
-  holds_.carry(run_, cells_.view());
+void Solver<T>::sort(bool stay) {
+  using Counts = CellTable::Counts;
+  cells_.sort(run_, places(), sets_, stay ? Counts::room_for_all : Counts::waits_for);
+  holds_.carry(run_, cells_.view(), stay);
   const std::uint32_t *order = cells_.order(), *node = cells_.node_of_particles();
   const auto permute = [&](auto& values, auto& room) {
     if (values.size() == 0) return;
     const auto* from = std::as_const(values).data();
     auto* to = room.data();
     run_.for_each("gpu: sort", count_, [=](long i) { to[i] = from[order[i]]; });
-    values.swap(room);
+    run_.replace("gpu: sort", values, room, count_, stay);
   };
   for (auto& one : store_.x) permute(one, place_room_);
   for (auto& one : store_.v) permute(one, room_);
@@ -127,12 +129,16 @@ void Solver<T>::sort() {
     to[i] = node[i];
     fault[i] = 0;  // each leads to a sort or ends the run
   });
-  ++sorts_;
+  if (stay) {
+    course_.sorted(run_, cells_.counts(), cells_.owners_room(), cells_.blocks_room());
+  } else {
+    ++sorts_;
+  }
 }
 
 template <class T>
-StepView<T> Solver<T>::view(double dt) {
-  StepView<T> view{};
+Step<T> Solver<T>::view(double dt) {
+  Step<T> view{};
   view.grid = grid_;
   ParticleView<T>& particles = view.particles;
   particles.count = count_;
@@ -183,8 +189,26 @@ StepView<T> Solver<T>::view(double dt) {
 
 template <class T>
 void Solver<T>::step(double dt, double start) {
-  if (must_sort_) sort();
-  StepView<T> now = view(dt);
+  if (has_replayed_ != replays()) {
+    look();
+    has_replayed_ = !has_replayed_;
+    if (has_replayed_) course_.begin(run_);
+    recorded_dt_ = 0.0;
+    must_sort_ = true;  // the table is another
+  }
+  if (has_replayed_) return replay(dt);
+  if (must_sort_) sort(false);
+  const Step<T> now = pass(dt, start, false);
+  ++steps_;
+  check(now, start);
+  if (must_sort_ && around_.any()) {
+    around_.put(run_, {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.mass.data(), sets_);
+  }
+}
+
+template <class T>
+Step<T> Solver<T>::pass(double dt, double start, bool stay) {
+  Step<T> now = view(dt);
   for (auto& stage : stages_) stage->begin_step(run_, now, start, sorts_);
   const bool halves = method_.update == Update::usavg;
   if (passes_->domains != nullptr) passes_->domains(run_, now);
@@ -202,20 +226,66 @@ void Solver<T>::step(double dt, double start) {
   act(mpm::Hook::grid_advanced, now);
   passes_->move[method_.motion][static_cast<int>(counting(now.settings))](run_, now);
   if (strains_last()) {
-    StepView<T> at_end = now;
+    Step<T> at_end = now;
     at_end.nodes.moved = moved_[1].data();
     at_end.nodes.momentum = now.nodes.acceleration;  // not needed any more; accounts need the momentum of the start
     momentum(at_end);
     act(mpm::Hook::before_strain, at_end);
     strain(now, halves ? 0.5 * dt : dt);
-    for (int k = 0; k < dim_; ++k) store_.x[k].swap(next_x_[k]);
+    for (int k = 0; k < dim_; ++k) run_.replace("gpu: velocity and place", store_.x[k], next_x_[k], count_, stay);
   }
   dim_ == 3 ? account<3>(dt) : account<2>(dt);
-  ++steps_;
-  check(now, start);
-  if (must_sort_ && around_.any()) {
-    around_.put(run_, {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()}, store_.mass.data(), sets_);
+  return now;
+}
+
+template <class T>
+bool Solver<T>::replays() const {
+  return may_replay_ && stages_.empty() && method_.counting == Counting::nothing && !around_.any() && count_ > 0 &&
+         card::can_record();
+}
+
+template <class T>
+void Solver<T>::replay(double dt) {
+  if (must_sort_) sort(true);
+  must_sort_ = false;
+  if (dt != recorded_dt_ || cells_.generation() != recorded_generation_) {
+    recording_ = run_.record([&] {
+      course_.where_to_sort(run_, [&] { sort(true); });
+      course_.where_it_goes_on(run_, [&] {
+        pass(dt, 0.0, true);
+        const std::uint8_t* fault = fault_.data();
+        run_.reduce_there(
+            "gpu: checks", count_, [=](long i) { return Faults::of(fault[i], i); }, of_particles_);
+        course_.stepped(run_, of_particles_.data(), store_.id.data(),
+                        {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()});
+      });
+    });
+    recorded_dt_ = dt;
+    recorded_generation_ = cells_.generation();
   }
+  run_.replay(recording_);
+  counted_ = true;
+  looked_ = false;
+}
+
+template <class T>
+void Solver<T>::look() {
+  if (looked_) return;
+  const Course::Numbers numbers = course_.look(run_);
+  looked_ = true;
+  steps_ += numbers.steps;
+  sorts_ += numbers.sorts;
+  if (numbers.failure == Course::kNoRoom) cells_.require_room(numbers.owners, numbers.blocks);
+  if (numbers.failure != 0) fail(numbers.failure, numbers.id, numbers.place, steps_ + 1);
+}
+
+template <class T>
+void Solver<T>::fail(std::uint32_t fault, std::uint32_t id, const double* along, long step) const {
+  std::string place;
+  for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", along[k]);
+  throw GpuError(
+      fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", id, place,
+                  fault == kInverted ? "is turned inside out (J <= 0)" : "is outside the domain or not finite", step));
 }
 
 template <class T>
@@ -226,7 +296,7 @@ Counting Solver<T>::counting(const StepSettings& settings) const {
 }
 
 template <class T>
-void Solver<T>::average(const StepView<T>& now) {
+void Solver<T>::average(const Step<T>& now) {
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     if (!sets_[s].averages) continue;
     average_passes_[s](run_, now, static_cast<int>(s), laws_[s].data());
@@ -234,14 +304,14 @@ void Solver<T>::average(const StepView<T>& now) {
 }
 
 template <class T>
-void Solver<T>::strain(StepView<T> now, double dt) {
+void Solver<T>::strain(Step<T> now, double dt) {
   now.settings.strain_dt = dt;
   passes_->gradient(run_, now);
   for (std::size_t s = 0; s < sets_.size(); ++s) law_passes_[s](run_, now, static_cast<int>(s), laws_[s].data());
 }
 
 template <class T>
-void Solver<T>::filter(StepView<T> now) {
+void Solver<T>::filter(Step<T> now) {
   if (now.settings.increments == 0) return;
   passes_->first_increment[method_.mixes](run_, now);
   act(mpm::Hook::velocity_found, now);
@@ -278,6 +348,7 @@ void Solver<T>::account(double dt) {
 
 template <class T>
 Impulses& Solver<T>::impulses() {
+  look();
   if (!std::exchange(counted_, false)) return impulses_;
   impulses_ += impulses_there_.get(0);
   const Impulses none;
@@ -286,20 +357,14 @@ Impulses& Solver<T>::impulses() {
 }
 
 template <class T>
-void Solver<T>::check(const StepView<T>& now, double start) {
+void Solver<T>::check(const Step<T>& now, double start) {
   const std::uint8_t* fault = fault_.data();
-  const auto faults_of = [=](long i) {
-    OfParticles one;
-    one.left = (fault[i] & kLeftCell) != 0;
-    if ((fault[i] & kOutside) != 0) one.outside = static_cast<std::uint32_t>(i);
-    if ((fault[i] & kInverted) != 0) one.inverted = static_cast<std::uint32_t>(i);
-    return one;
-  };
+  const auto faults_of = [=](long i) { return Faults::of(fault[i], i); };
   OfCounted sums;
-  OfParticles& all = sums.faults;
+  Faults& all = sums.faults;
   const Counting counted = counting(now.settings);
   if (counted == Counting::nothing) {
-    all = run_.reduce<OfParticles>("gpu: checks", count_, faults_of, of_particles_);
+    all = run_.reduce<Faults>("gpu: checks", count_, faults_of, of_particles_);
   } else {
     const double* taken = taken_.data();
     const int dim = dim_;
@@ -312,20 +377,19 @@ void Solver<T>::check(const StepView<T>& now, double start) {
         of_counted_);
   }
   must_sort_ = all.left;
-  const auto fail = [&](std::uint32_t p, const char* what) {
-    std::string place;
-    for (int k = 0; k < dim_; ++k) place += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", store_.x[k].get(p));
-    throw GpuError(fmt::format("gpu: particle {} at ({}) m {} in step {}: shorten the time step", store_.id.get(p),
-                               place, what, steps_));
+  const auto fail_by = [&](std::uint32_t fault, std::uint32_t p) {
+    double place[3] = {};
+    for (int k = 0; k < dim_; ++k) place[k] = store_.x[k].get(p);
+    fail(fault, store_.id.get(p), place, steps_);
   };
-  if (all.inverted != OfParticles::kNone) fail(all.inverted, "is turned inside out (J <= 0)");
-  if (all.outside != OfParticles::kNone) {
+  if (all.inverted != Faults::kNone) fail_by(kInverted, all.inverted);
+  if (all.outside != Faults::kNone) {
     must_sort_ = true;
-    const StepView<T> ended = view(now.settings.dt);  // places have been swapped
+    const Step<T> ended = view(now.settings.dt);  // places have been swapped
     const auto puts_back = [&](auto& stage) { return stage->put_back(run_, ended); };
-    if (std::any_of(stages_.begin(), stages_.end(), puts_back)) all.outside = OfParticles::kNone;
+    if (std::any_of(stages_.begin(), stages_.end(), puts_back)) all.outside = Faults::kNone;
   }
-  if (all.outside != OfParticles::kNone) fail(all.outside, "is outside the domain or not finite");
+  if (all.outside != Faults::kNone) fail_by(kOutside, all.outside);
   for (auto& stage : stages_) stage->end_step(run_, now, start, sums.taken);
 }
 

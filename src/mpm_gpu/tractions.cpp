@@ -71,7 +71,7 @@ void Tractions<T>::begin_step(double start, double dt) {
 }
 
 template <class T>
-void Tractions<T>::act(Executor& run, const StepView<T>& step, bool adds) {
+void Tractions<T>::act(Executor& run, const Step<T>& step, bool adds) {
   passes_.traction(run, step, {static_cast<long>(areas_.size()), acts_.data(), face_.data(), force_.data()}, adds);
 }
 

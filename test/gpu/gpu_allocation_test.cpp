@@ -41,8 +41,10 @@ TEST(GpuAllocation, NoneInAStepAfterTheFirst) {
     mpm::SimulationProbe solver(d);
     mpm_gpu::DeviceRun<double> run(d, solver.sets());
     run.solver().step(dt);
+    run.solver().look();
     const long before = allocations, sorts = run.solver().sorts();
     for (int i = 0; i < 60; ++i) run.solver().step(dt);
+    run.solver().look();
     EXPECT_EQ(allocations - before, 0);
     EXPECT_GT(run.solver().sorts(), sorts);
   }

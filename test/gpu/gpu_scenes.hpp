@@ -207,4 +207,22 @@ inline double step_of(const mpm::SimulationDefinition& d) {
   return 0.3 * d.grid.cell.x() / fastest;
 }
 
+/// All numbers of a run as bytes.
+template <class T>
+std::vector<unsigned char> bytes_of(mpm_gpu::DeviceRun<T>& run) {
+  std::vector<unsigned char> bytes;
+  const auto add = [&](const void* data, std::size_t size) {
+    const auto* from = static_cast<const unsigned char*>(data);
+    bytes.insert(bytes.end(), from, from + size);
+  };
+  run.solver().particles().each([&](const auto& buffer) {
+    const auto numbers = buffer.download();
+    add(numbers.data(), buffer.bytes());
+  });
+  const auto momentum = run.solver().momentum();
+  add(momentum.data(), sizeof(momentum));
+  add(&run.solver().impulses(), sizeof(mpm_gpu::Impulses));
+  return bytes;
+}
+
 }  // namespace gpu_scenes

@@ -236,7 +236,7 @@ TEST(GpuStep, MomentumCloses) {
   expect_closed<double>(gpu_scenes::column_friction, 1e-10);
 }
 
-/// All numbers of a run as bytes.
+/// All numbers of a run after some steps.
 template <class T>
 std::vector<unsigned char> bytes_after(SceneOf scene, Executor executor, int steps) {
   const SimulationDefinition d = scene(kPrecision<T>);
@@ -244,19 +244,7 @@ std::vector<unsigned char> bytes_after(SceneOf scene, Executor executor, int ste
   DeviceRun<T> run(d, solver.sets(), executor);
   const double dt = gpu_scenes::step_of(d);
   for (int i = 0; i < steps; ++i) run.solver().step(dt);
-  std::vector<unsigned char> bytes;
-  const auto add = [&](const void* data, std::size_t size) {
-    const auto* from = static_cast<const unsigned char*>(data);
-    bytes.insert(bytes.end(), from, from + size);
-  };
-  run.solver().particles().each([&](const auto& buffer) {
-    const auto numbers = buffer.download();
-    add(numbers.data(), buffer.bytes());
-  });
-  const auto momentum = run.solver().momentum();
-  add(momentum.data(), sizeof(momentum));
-  add(&run.solver().impulses(), sizeof(mpm_gpu::Impulses));
-  return bytes;
+  return gpu_scenes::bytes_of(run);
 }
 
 template <class T>
@@ -342,6 +330,7 @@ TEST(GpuStep, FailsByName) {
   DeviceRun<double> run(d, solver.sets());
   try {
     run.solver().step(10.0);
+    run.solver().look();
     FAIL() << "no error";
   } catch (const mpm_gpu::GpuError& error) {
     EXPECT_NE(std::string(error.what()).find("gpu: particle "), std::string::npos) << error.what();

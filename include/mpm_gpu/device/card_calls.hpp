@@ -9,8 +9,12 @@ namespace mpm_gpu::card {
 void succeed(int code, const char* what);
 /// The stream, a cudaStream_t.
 void* stream();
-/// Two numbers of the host's memory to which the card copies at once.
-std::uint32_t* host_sums();
+/// Lets all work go to another, which captures it.
+void work_goes_to(void* stream) noexcept;
+/// Hands out the kernel that sets a condition, a cudaGraphConditionalHandle, by the number there.
+void set_condition(unsigned long long handle, const std::uint32_t* number);
+/// True while a profile is kept.
+bool profiles();
 
 /// Time of the work that is handed to the stream while it lives, as a row of the profile where one is kept.
 class Timed {

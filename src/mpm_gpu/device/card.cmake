@@ -1,4 +1,4 @@
-# Makes the library mpm_gpu_cuda, of steps on a card: files of kernels and launches by clang, CUB's scan and sort by nvcc, the
+# Makes the library mpm_gpu_cuda, of steps on a card: files of kernels and launches by clang, CUB's scan and sort and conditions of graphs by nvcc, the
 # rest by the compiler of all else.
 
 find_package(CUDAToolkit 12.0 QUIET)
@@ -27,24 +27,28 @@ function(mpm_compile_for_card objects source)
 endfunction()
 
 set(card_objects)
-foreach(name cells holds home_blocks near_copies put_around solver totals)
+foreach(name cells course holds home_blocks near_copies put_around solver totals)
   mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -ffp-contract=off)
 endforeach()
 foreach(name passes laws soil)
   mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -DMPM_ONE_LANE -Dmpm=mpm_lane -ffp-contract=fast)
 endforeach()
-set(sort_and_scan ${CMAKE_CURRENT_BINARY_DIR}/card/sort_and_scan.o)
-add_custom_command(OUTPUT ${sort_and_scan}
-  COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} -ccbin ${CMAKE_CXX_COMPILER} -std=c++17 -O2 -DMPM_CUDA -I${PROJECT_SOURCE_DIR}/include
-    -gencode arch=compute_80,code=[sm_80,compute_80] -gencode arch=compute_90,code=sm_90
-    -MD -MF ${sort_and_scan}.d -c -o ${sort_and_scan} ${PROJECT_SOURCE_DIR}/src/mpm_gpu/device/sort_and_scan.cu
-  DEPENDS src/mpm_gpu/device/sort_and_scan.cu DEPFILE ${sort_and_scan}.d COMMENT "Building scan and sort for cards" VERBATIM)
+# Those that need CUDA's own compiler.
+foreach(name sort_and_scan condition)
+  set(object ${CMAKE_CURRENT_BINARY_DIR}/card/${name}.o)
+  add_custom_command(OUTPUT ${object}
+    COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} -ccbin ${CMAKE_CXX_COMPILER} -std=c++17 -O2 -DMPM_CUDA -I${PROJECT_SOURCE_DIR}/include
+      -gencode arch=compute_80,code=[sm_80,compute_80] -gencode arch=compute_90,code=sm_90
+      -MD -MF ${object}.d -c -o ${object} ${PROJECT_SOURCE_DIR}/src/mpm_gpu/device/${name}.cu
+    DEPENDS src/mpm_gpu/device/${name}.cu DEPFILE ${object}.d COMMENT "Building ${name} for cards" VERBATIM)
+  list(APPEND card_objects ${object})
+endforeach()
 
 add_library(mpm_gpu_cuda STATIC EXCLUDE_FROM_ALL src/mpm_gpu/device.cpp src/mpm_gpu/exchange.cpp src/mpm_gpu/held_nodes.cpp
   src/mpm_gpu/implicit_soil.cpp src/mpm_gpu/leaving.cpp src/mpm_gpu/loads.cpp src/mpm_gpu/near_bodies.cpp src/mpm_gpu/near_rest.cpp src/mpm_gpu/near_tools.cpp
   src/mpm_gpu/prescribed.cpp src/mpm_gpu/soil_map.cpp src/mpm_gpu/soil_rows.cpp src/mpm_gpu/stages.cpp
-  src/mpm_gpu/tractions.cpp src/mpm_gpu/device/card.cpp ${card_objects} ${sort_and_scan})
-set_source_files_properties(${card_objects} ${sort_and_scan} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+  src/mpm_gpu/tractions.cpp src/mpm_gpu/device/card.cpp src/mpm_gpu/device/recordings.cpp ${card_objects})
+set_source_files_properties(${card_objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 target_compile_definitions(mpm_gpu_cuda PUBLIC MPM_CUDA)
 target_include_directories(mpm_gpu_cuda SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DIRS})
 target_link_libraries(mpm_gpu_cuda PUBLIC mpm CUDA::cudart_static PRIVATE mpm_options OpenMP::OpenMP_CXX fmt::fmt)

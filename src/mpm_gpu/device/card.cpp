@@ -19,7 +19,6 @@ constexpr unsigned kThreadsOfBlock = 128;
 struct Card {
   cudaStream_t stream = nullptr;
   cudaEvent_t begin = nullptr, end = nullptr;
-  std::uint32_t* sums = nullptr;  ///< two numbers of the host, to which copies need not be staged
   bool profile = false;
   std::map<const char*, Row> rows;
 
@@ -49,7 +48,6 @@ struct Card {
     succeed(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "open a stream");
     succeed(cudaEventCreate(&begin), "make an event");
     succeed(cudaEventCreate(&end), "make an event");
-    succeed(cudaMallocHost(reinterpret_cast<void**>(&sums), 2 * sizeof(std::uint32_t)), "take memory of the host");
   }
 };
 
@@ -70,6 +68,7 @@ void succeed(int code, const char* what) {
   const char* remedy = "look at the card with nvidia-smi";
   switch (error) {
     case cudaErrorMemoryAllocation:
+    case cudaErrorLaunchOutOfResources:
       remedy = "run fewer particles";
       break;
     case cudaErrorNoKernelImageForDevice:
@@ -81,6 +80,12 @@ void succeed(int code, const char* what) {
       remedy = "another program holds the card: end it";
       break;
     case cudaErrorIllegalAddress:
+    case cudaErrorMisalignedAddress:
+    case cudaErrorInvalidAddressSpace:
+    case cudaErrorInvalidPc:
+    case cudaErrorIllegalInstruction:
+    case cudaErrorAssert:
+    case cudaErrorLaunchTimeout:
     case cudaErrorLaunchFailure:
     case cudaErrorECCUncorrectable:
     case cudaErrorHardwareStackError:
@@ -94,16 +99,19 @@ void succeed(int code, const char* what) {
 }
 
 void* stream() { return card().stream; }
+void work_goes_to(void* stream) noexcept { card().stream = static_cast<cudaStream_t>(stream); }
+bool profiles() { return card().profile; }
 
 void* allocate(std::size_t bytes) {
   cudaStream_t stream = card().stream;
   void* memory = nullptr;
-  if (cudaMalloc(&memory, bytes) == cudaErrorMemoryAllocation) {
+  const cudaError_t code = cudaMalloc(&memory, bytes);
+  if (code == cudaErrorMemoryAllocation) {
     cudaGetLastError();
     throw GpuError(fmt::format("gpu: {} more of the card's memory are needed and {} are free: run fewer particles",
                                gigabytes(bytes), gigabytes(free_memory())));
   }
-  succeed(memory == nullptr ? cudaErrorUnknown : cudaSuccess, "take memory of the card");
+  succeed(code, "take memory of the card");
   succeed(cudaMemsetAsync(memory, 0, bytes, stream), "set memory of the card to zero");
   return memory;
 }
@@ -171,8 +179,6 @@ Timed::~Timed() {
   ++row.launches;
   row.seconds += 1e-3 * static_cast<double>(milliseconds);
 }
-
-std::uint32_t* host_sums() { return card().sums; }
 
 void profile(bool on) {
   card().profile = on;

@@ -17,77 +17,77 @@ template <class T, class Geometry, template <class> class ShapeClass>
 struct PassesOf {
   static constexpr int kDim = Geometry::kDim;
 
-  static void domains(Executor& run, const StepView<T>& step) {
+  static void domains(Executor& run, const Step<T>& step) {
     run.for_each("gpu: domains", step.particles.count, DomainKernel<T, kDim>{step});
   }
   template <bool Affine>
-  static void momentum(Executor& run, const StepView<T>& step) {
+  static void momentum(Executor& run, const Step<T>& step) {
     run.for_each("gpu: momentum to the nodes", step.nodes.nodes, MomentumKernel<T, Geometry, ShapeClass, Affine>{step});
   }
-  static void gradient(Executor& run, const StepView<T>& step) {
+  static void gradient(Executor& run, const Step<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
       const SetView& set = step.sets[s];
       run.for_each("gpu: velocity gradient", set.count, GradientKernel<T, kDim, ShapeClass>{step, set});
     }
   }
   template <bool Mixed>
-  static void first_increment(Executor& run, const StepView<T>& step) {
+  static void first_increment(Executor& run, const Step<T>& step) {
     run.for_each("gpu: increments", step.nodes.nodes, FirstIncrementKernel<T, kDim, Mixed>{step});
   }
-  static void to_particles(Executor& run, const StepView<T>& step) {
+  static void to_particles(Executor& run, const Step<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
       const SetView& set = step.sets[s];
       run.for_each("gpu: increments", set.count, IncrementToParticlesKernel<T, kDim, ShapeClass>{step, set});
     }
   }
   template <bool Mixed>
-  static void increment(Executor& run, const StepView<T>& step) {
+  static void increment(Executor& run, const Step<T>& step) {
     run.for_each("gpu: increments", step.nodes.nodes, IncrementKernel<T, kDim, ShapeClass, Mixed>{step});
   }
   template <bool Driven>
-  static void force(Executor& run, const StepView<T>& step) {
+  static void force(Executor& run, const Step<T>& step) {
     run.for_each("gpu: force and momentum of nodes", step.nodes.nodes,
                  ForceKernel<T, Geometry, ShapeClass, Driven>{step});
   }
   template <mpm_kernel::Motion Kind, Counting Counts>
-  static void move(Executor& run, const StepView<T>& step) {
+  static void move(Executor& run, const Step<T>& step) {
     for (int s = 0; s < step.set_count; ++s) {
       const SetView& set = step.sets[s];
       run.for_each("gpu: velocity and place", set.count, MoveKernel<T, kDim, ShapeClass, Kind, Counts>{step, set});
     }
   }
-  static void load_of_particles(Executor& run, const StepView<T>& step, const LoadView& load) {
+  static void load_of_particles(Executor& run, const Step<T>& step, const LoadView& load) {
     run.for_each("gpu: loads", step.particles.count, LoadOfParticleKernel<T, kDim>{step, load});
   }
   template <template <class> class Spread>
-  static void load(Executor& run, const StepView<T>& step, bool adds) {
+  static void load(Executor& run, const Step<T>& step, bool adds) {
     run.for_each("gpu: loads", step.nodes.nodes, LoadKernel<T, kDim, Spread>{step, adds});
   }
-  static void traction(Executor& run, const StepView<T>& step, const TractionView& traction, bool adds) {
+  static void traction(Executor& run, const Step<T>& step, const TractionView& traction, bool adds) {
     run.for_each("gpu: loads", step.nodes.nodes, TractionKernel<T, kDim>{step, traction, adds});
   }
-  static void load_power(Executor& run, const StepView<T>& step, double* power) {
+  static void load_power(Executor& run, const Step<T>& step, double* power) {
     run.for_each("gpu: loads", step.nodes.nodes, LoadPowerKernel<T, kDim>{step, power});
   }
-  static void hold(Executor& run, const StepView<T>& step, const HeldView& held, HeldPart part) {
+  static void hold(Executor& run, const Step<T>& step, const HeldView& held, HeldPart part) {
     run.for_each("gpu: prescribed velocities", held.nodes, HoldKernel<T, kDim>{step, held, part});
   }
-  static void put_back(Executor& run, const StepView<T>& step, double* numbers) {
+  static void put_back(Executor& run, const Step<T>& step, double* numbers) {
     for (int s = 0; s < step.set_count; ++s) {
       const SetView& set = step.sets[s];
       run.for_each("gpu: particles that left", set.count, PutBackKernel<T, kDim>{step, set, numbers});
     }
   }
-  static void volumes(Executor& run, const StepView<T>& step, int number, double start, bool stays, double* volume) {
+  static void volumes(Executor& run, const Step<T>& step, int number, double start, bool stays, double* volume) {
     const SetView& set = step.sets[number];
     run.for_each("gpu: volume of liquids", set.count,
                  VolumeKernel<T, Geometry>{step.particles, set.first, start, stays, volume});
   }
-  static void fullness(Executor& run, const StepView<T>& step, const double* volume, double cell, double* fullness) {
+  static void fullness(Executor& run, const Step<T>& step, const double* volume, double cell, double* fullness) {
     run.for_each("gpu: volume of liquids", step.nodes.nodes,
                  FullnessKernel<T, kDim, ShapeClass>{step, volume, cell, fullness});
   }
-  static void fullness_to_particles(Executor& run, const StepView<T>& step, int number, const double* fullness) {
+  static void fullness_to_particles(Executor& run, const Step<T>& step, int number, const double* fullness) {
     const SetView& set = step.sets[number];
     run.for_each("gpu: volume of liquids", set.count,
                  FullnessToParticlesKernel<T, kDim, ShapeClass>{step, set, fullness});

@@ -7,7 +7,7 @@ template <class T, class Geometry>
 struct SoilPassesOf {
   static constexpr int kDim = Geometry::kDim, kTeam = kMembers<kDim>;
   using Soil = SoilView<T>;
-  using Step = StepView<T>;
+  using Step = mpm_gpu::Step<T>;
   using Node = mpm_kernel::SoilNode<T>;
 
   static void numbers(Executor& run, const SetView& set, const mpm_kernel::SoilParticles<T>& particles,
@@ -69,12 +69,7 @@ struct SoilPassesOf {
                  SoilTakeKernel<T, Geometry>{step, soil, particles, set, step.settings.dt, number});
   }
   static DeedSums deeds(Executor& run, const Step& step, const Soil& soil, Buffer<DeedSums>& partial) {
-    return run.template reduce<DeedSums>(
-        "gpu: accounts", step.nodes.nodes,
-        [=](long i) {
-          return SolvedNode<T, kDim>{&soil, &step, i};
-        },
-        partial);
+    return run.template reduce<DeedSums>("gpu: accounts", step.nodes.nodes, SolvedNodes<T, kDim>{soil, step}, partial);
   }
   static void store(Executor& run, const Step& step, const Soil& soil) {
     run.for_each("gpu: nodes of the soil", step.nodes.nodes, SoilStoreKernel<T, kDim>{soil, step});

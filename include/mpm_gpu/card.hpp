@@ -57,6 +57,8 @@ void replay(const Recording& recording);
 /// Name, and the memory that is free [bytes].
 std::string name();
 std::size_t free_memory();
+/// Bytes that the card reads and writes a second while it copies its own memory.
+double bytes_per_second();
 /// @throws GpuError saying how many would fit, where so many particles of so many bytes do not
 void require(long particles, std::size_t bytes_of_each);
 

@@ -24,7 +24,7 @@ using Backend = Loops;
 
 class Executor : public Backend {
  public:
-  static constexpr long kGroup = 256;  ///< numbers that are added one after another
+  static constexpr long kGroup = 32;  ///< numbers that are added one after another
 
   using Backend::Backend;
 

@@ -14,8 +14,8 @@ namespace mpm {
 
 class SimulationProbe {
  public:
-  explicit SimulationProbe(const SimulationDefinition& definition)
-      : simulation_(definition, {1}), state_(*simulation_.state_) {}
+  explicit SimulationProbe(const SimulationDefinition& definition, int threads = 1)
+      : simulation_(definition, {threads}), state_(*simulation_.state_) {}
 
   /// Makes one step of `dt` [s]. @throws PhysicsError
   void step(double dt) {

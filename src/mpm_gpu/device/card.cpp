@@ -146,6 +146,24 @@ std::size_t free_memory() {
   return free;
 }
 
+double bytes_per_second() {
+  constexpr std::size_t kBytes = std::size_t{1} << 29;
+  constexpr int kCopies = 10;
+  Card& own = card();
+  void *from = allocate(kBytes), *to = allocate(kBytes);
+  float milliseconds = 0.0F;
+  for (int i = 0; i <= kCopies; ++i) {
+    if (i == 1) succeed(cudaEventRecord(own.begin, own.stream), "time a copy");  // after the first
+    succeed(cudaMemcpyAsync(to, from, kBytes, cudaMemcpyDeviceToDevice, own.stream), "copy memory of the card");
+  }
+  succeed(cudaEventRecord(own.end, own.stream), "time a copy");
+  succeed(cudaEventSynchronize(own.end), "time a copy");
+  succeed(cudaEventElapsedTime(&milliseconds, own.begin, own.end), "time a copy");
+  release(from);
+  release(to);
+  return 2.0 * kBytes * kCopies / (1e-3 * static_cast<double>(milliseconds));
+}
+
 void require(long particles, std::size_t bytes_of_each) {
   const std::size_t free = free_memory(), needed = static_cast<std::size_t>(particles) * bytes_of_each;
   if (needed <= free) return;

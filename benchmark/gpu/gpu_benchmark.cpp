@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 #ifdef MPM_CUDA
 constexpr int kSteps = 100, kStepsOfProfile = 20;
-constexpr double kMemory = 80e9;  ///< of a card of today [bytes]
+constexpr double kMemory = 80e9;  ///< memory of a card of today [bytes]
 #else
 constexpr int kSteps = 5;
 #endif

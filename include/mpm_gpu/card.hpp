@@ -17,8 +17,9 @@ namespace mpm_gpu::card {
 /// Memory of the card, set to zero. @throws GpuError where there is too little
 void* allocate(std::size_t bytes);
 void release(void* memory) noexcept;
-/// Copies to the card and from it; both wait for the work before them.
+/// Copies to the card, after the work before; the host may change its numbers at once, and waits only for many of them.
 void upload(void* to, const void* from, std::size_t bytes);
+/// Copies from the card, and waits for that.
 void download(void* to, const void* from, std::size_t bytes);
 /// Waits for all work.
 void finish();

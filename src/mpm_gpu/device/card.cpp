@@ -4,6 +4,7 @@
 #include <cuda_runtime_api.h>
 #include <fmt/core.h>
 
+#include <cstring>
 #include <map>
 
 #include "mpm_gpu/device/card_calls.hpp"
@@ -14,11 +15,14 @@ namespace {
 
 constexpr double kGigabyte = 1e9;
 constexpr unsigned kThreadsOfBlock = 128;
+constexpr std::size_t kStaging = std::size_t{1} << 23, kStagedAt = 256;  ///< room and places for small uploads [bytes]
 
 /// Stream, events and numbers of the card that this process uses, which is the first one.
 struct Card {
   cudaStream_t stream = nullptr;
   cudaEvent_t begin = nullptr, end = nullptr;
+  char* staging = nullptr;  ///< memory of the host that the card reads by itself
+  std::size_t staged = 0;   ///< bytes there that it may not have read yet
   bool profile = false;
   std::map<const char*, Row> rows;
 
@@ -46,6 +50,7 @@ struct Card {
     }
     succeed(cudaSetDevice(0), "open the card");
     succeed(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "open a stream");
+    succeed(cudaMallocHost(reinterpret_cast<void**>(&staging), kStaging), "take memory of the host");
     succeed(cudaEventCreate(&begin), "make an event");
     succeed(cudaEventCreate(&end), "make an event");
   }
@@ -123,8 +128,14 @@ void release(void* memory) noexcept {
 }
 
 void upload(void* to, const void* from, std::size_t bytes) {
-  succeed(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, card().stream), "copy to the card");
-  finish();
+  Card& own = card();
+  const bool stages = bytes <= kStaging;
+  if (stages && own.staged + bytes > kStaging) finish();
+  char* staged = own.staging + own.staged;
+  if (stages) std::memcpy(staged, from, bytes);
+  succeed(cudaMemcpyAsync(to, stages ? staged : from, bytes, cudaMemcpyHostToDevice, own.stream), "copy to the card");
+  if (!stages) return finish();
+  own.staged += (bytes + kStagedAt - 1) / kStagedAt * kStagedAt;
 }
 
 void download(void* to, const void* from, std::size_t bytes) {
@@ -216,6 +227,9 @@ std::vector<Row> profiled() {
   return rows;
 }
 
-void finish() { succeed(cudaStreamSynchronize(card().stream), "end the work on the card"); }
+void finish() {
+  succeed(cudaStreamSynchronize(card().stream), "end the work on the card");
+  card().staged = 0;
+}
 
 }  // namespace mpm_gpu::card

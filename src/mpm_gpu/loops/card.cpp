@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -27,8 +28,9 @@ namespace {
 constexpr std::size_t kReserved = std::size_t{1} << 38;  ///< addresses; pages are taken as they are used
 constexpr std::size_t kAligned = 64;
 constexpr std::size_t kPage = std::size_t{1} << 21;  ///< bytes that are opened at once
-constexpr std::size_t kMostWork =
-    512;  ///< pieces, or recordings, that are kept until they are done without being asked
+constexpr std::size_t kMostWork = 512,
+                      kMostBytes = 512 * 2048;  ///< work that is kept until it is done without being asked
+constexpr std::size_t kMostStaged = 1 << 14;    ///< bytes of a copy that is kept with it
 
 std::size_t rounded(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 
@@ -110,6 +112,32 @@ struct Piece {
 struct Work {
   std::vector<Piece> pieces;
   std::vector<unsigned char> kernels;
+
+  struct Bytes {
+    const void* from;
+    std::size_t count;
+  };
+  /// Adds a kernel of these bytes, one after another.
+  void add(Piece piece, std::initializer_list<Bytes> kernel) {
+    piece.kernel = rounded(kernels.size(), alignof(std::max_align_t));
+    kernels.resize(piece.kernel);
+    for (const Bytes& bytes : kernel) {
+      const auto* from = static_cast<const unsigned char*>(bytes.from);
+      kernels.insert(kernels.end(), from, from + bytes.count);
+    }
+    pieces.push_back(piece);
+  }
+};
+
+/// Copy to the device of the bytes that follow it.
+struct Upload {
+  void* to;
+  std::size_t bytes;
+
+  static void run(const void* upload, long, long) {
+    const Upload& own = *static_cast<const Upload*>(upload);
+    std::memcpy(own.to, &own + 1, own.bytes);
+  }
 };
 
 struct Stream {
@@ -120,7 +148,7 @@ struct Stream {
 
   Stream() {
     waiting.pieces.reserve(2 * kMostWork);
-    waiting.kernels.reserve(2048 * kMostWork);
+    waiting.kernels.reserve(2 * kMostBytes);
   }
 };
 
@@ -192,7 +220,8 @@ void do_all(const Work& work) {
 
 /// Does work where much is waiting.
 void limit_waiting() {
-  if (stream().waiting.pieces.size() >= kMostWork) finish();
+  const Work& waiting = stream().waiting;
+  if (waiting.pieces.size() >= kMostWork || waiting.kernels.size() >= kMostBytes) finish();
 }
 
 }  // namespace
@@ -208,10 +237,18 @@ void release(void* memory) noexcept {
 }
 
 void upload(void* to, const void* from, std::size_t bytes) {
-  finish();
-  stream().region.let(true);
-  std::memcpy(to, from, bytes);
-  stream().region.let(false);
+  refuse_in_recording();
+  Stream& own = stream();
+  if (bytes > kMostStaged) {
+    finish();
+    own.region.let(true);
+    std::memcpy(to, from, bytes);
+    own.region.let(false);
+    return;
+  }
+  const Upload upload{to, bytes};
+  own.waiting.add({"gpu: copies", 1, 1, &Upload::run}, {{&upload, sizeof(upload)}, {from, bytes}});
+  limit_waiting();
 }
 
 void download(void* to, const void* from, std::size_t bytes) {
@@ -238,11 +275,7 @@ void launch(const char* name, int threads, long count, void (*run)(const void*, 
   refuse_addresses(name, kernel, bytes);
   Stream& own = stream();
   Work& to = own.recorded ? *own.recorded : own.waiting;
-  Piece piece{name, threads, count, run};
-  piece.kernel = rounded(to.kernels.size(), alignof(std::max_align_t));
-  to.kernels.resize(piece.kernel + bytes);
-  std::memcpy(to.kernels.data() + piece.kernel, kernel, bytes);
-  to.pieces.push_back(piece);
+  to.add({name, threads, count, run}, {{kernel, bytes}});
   if (!own.recorded) limit_waiting();
 }
 

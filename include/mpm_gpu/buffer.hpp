@@ -37,6 +37,7 @@ class Memory {
   void download(std::size_t at, void* to, std::size_t bytes) const {
     card::download(to, static_cast<const char*>(data_) + at, bytes);
   }
+  void download_soon(void* to, std::size_t bytes) const { card::download_soon(to, data_, bytes); }
 
  private:
   void* data_ = nullptr;
@@ -75,6 +76,10 @@ class Buffer {
   /// Copies to the host, from place `first` and on.
   void download(T* to, long count, long first = 0) const {
     if (count > 0) memory_.download(static_cast<std::size_t>(first) * sizeof(T), to, count_bytes(count));
+  }
+  /// The same of the first `count`, which are there after the next copy that is waited for.
+  void download_soon(T* to, long count) const {
+    if (count > 0) memory_.download_soon(to, count_bytes(count));
   }
   std::vector<T> download() const {
     std::vector<T> all(static_cast<std::size_t>(size()));

@@ -21,6 +21,8 @@ void release(void* memory) noexcept;
 void upload(void* to, const void* from, std::size_t bytes);
 /// Copies from the card, and waits for that.
 void download(void* to, const void* from, std::size_t bytes);
+/// The same of what is there after the next wait, whoever waits.
+void download_soon(void* to, const void* from, std::size_t bytes);
 /// Waits for all work.
 void finish();
 

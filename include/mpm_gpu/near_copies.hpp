@@ -35,6 +35,8 @@ class NearCopies {
 
   /// Copies `components` of each node to the host.
   void download(Executor& run, const NodeView& nodes, const double* from, int components, double* to);
+  /// The same, which are there after the next copy that is waited for.
+  void download_soon(Executor& run, const NodeView& nodes, const double* from, int components, double* to);
   /// Copies places, velocities and `components` of the deformation gradient: [component][particle].
   void download_particles(Executor& run, const Step<T>& step, int components, std::vector<double>& to);
   /// Takes places as download_particles() gave them, [axis][particle].
@@ -51,6 +53,8 @@ class NearCopies {
 
  private:
   long count() const { return blocks_ * per_block_; }
+  /// Lays what is to be copied into the room.
+  void gather(Executor& run, const NodeView& nodes, const double* from, int components);
   void upload(Buffer<double>& room, const double* from);
   /// kernel(node, place of its component 0 in an upload, distance from one component to the next) for each node.
   template <class Kernel>

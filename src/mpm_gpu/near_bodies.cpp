@@ -163,12 +163,16 @@ void NearBodies<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
   const auto get = [&](const double* from, mpm::NodalField& to) {
     copies_.download(run, nodes, from, to.components(), to.data());
   };
+  const auto get_soon = [&](const double* from, mpm::NodalField& to) {
+    copies_.download_soon(run, nodes, from, to.components(), to.data());
+  };
   switch (hook) {
     case mpm::Hook::momentum_gathered:
-      get(nodes.mass, near.mass);
-      get(nodes.momentum, near.momentum);
-      find_velocities();
+      get_soon(nodes.mass, near.mass);
+      get_soon(nodes.momentum, near.momentum);
       download_particles(run, step);
+      card::finish();  // where there are none, that has not waited
+      find_velocities();
       contact_.act(hook);
       break;
     case mpm::Hook::before_strain:
@@ -177,14 +181,14 @@ void NearBodies<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
       copies_.upload_for_strain(run, step, near.velocity.data());
       break;
     case mpm::Hook::momentum_updated:
-      get(nodes.velocity, near.velocity);
+      get_soon(nodes.velocity, near.velocity);
       get(nodes.acceleration, near.force);
       contact_.act(hook);
       copies_.upload_at_end(run, step, near.velocity.data(), near.force.data());
       break;
     case mpm::Hook::velocity_found:
       near.increment.resize(near.blocks.size());
-      get(nodes.velocity, near.velocity);
+      get_soon(nodes.velocity, near.velocity);
       get(nodes.increment, near.increment);
       contact_.act(hook);
       copies_.upload_first_increment(run, step, near.increment.data());

@@ -83,7 +83,7 @@ void NearCopies<T>::each_node(Executor& run, const Kernel& kernel) {
 }
 
 template <class T>
-void NearCopies<T>::download(Executor& run, const NodeView& nodes, const double* from, int components, double* to) {
+void NearCopies<T>::gather(Executor& run, const NodeView& nodes, const double* from, int components) {
   room_.grow(count() * components);
   double* room = room_.data();
   const std::int32_t* block = block_.data();
@@ -92,7 +92,19 @@ void NearCopies<T>::download(Executor& run, const NodeView& nodes, const double*
     const long b = i / (per_block * components), c = i / per_block % components, n = i % per_block;
     room[i] = from[c * all + block[b] * per_block + n];
   });
+}
+
+template <class T>
+void NearCopies<T>::download(Executor& run, const NodeView& nodes, const double* from, int components, double* to) {
+  gather(run, nodes, from, components);
   room_.download(to, count() * components);
+}
+
+template <class T>
+void NearCopies<T>::download_soon(Executor& run, const NodeView& nodes, const double* from, int components,
+                                  double* to) {
+  gather(run, nodes, from, components);
+  room_.download_soon(to, count() * components);
 }
 
 template <class T>

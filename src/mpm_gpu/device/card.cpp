@@ -21,8 +21,15 @@ constexpr std::size_t kStaging = std::size_t{1} << 23, kStagedAt = 256;  ///< ro
 struct Card {
   cudaStream_t stream = nullptr;
   cudaEvent_t begin = nullptr, end = nullptr;
-  char* staging = nullptr;  ///< memory of the host that the card reads by itself
-  std::size_t staged = 0;   ///< bytes there that it may not have read yet
+  /// A copy from the staging memory that is to be made after the next wait.
+  struct Soon {
+    void* to;
+    const void* from;
+    std::size_t bytes;
+  };
+  std::vector<Soon> soon;
+  char* staging = nullptr;  ///< memory of the host that the card reads and writes by itself
+  std::size_t staged = 0;   ///< bytes there that may be in use
   bool profile = false;
   std::map<const char*, Row> rows;
 
@@ -127,15 +134,29 @@ void release(void* memory) noexcept {
   cudaFree(memory);
 }
 
-void upload(void* to, const void* from, std::size_t bytes) {
+/// Takes so many bytes of the staging memory, for which it may have to wait; null for more than there is.
+static char* staged(std::size_t bytes) {
   Card& own = card();
-  const bool stages = bytes <= kStaging;
-  if (stages && own.staged + bytes > kStaging) finish();
-  char* staged = own.staging + own.staged;
-  if (stages) std::memcpy(staged, from, bytes);
-  succeed(cudaMemcpyAsync(to, stages ? staged : from, bytes, cudaMemcpyHostToDevice, own.stream), "copy to the card");
-  if (!stages) return finish();
+  if (bytes > kStaging) return nullptr;
+  if (own.staged + bytes > kStaging) finish();
+  char* place = own.staging + own.staged;
   own.staged += (bytes + kStagedAt - 1) / kStagedAt * kStagedAt;
+  return place;
+}
+
+void upload(void* to, const void* from, std::size_t bytes) {
+  char* place = staged(bytes);
+  if (place != nullptr) std::memcpy(place, from, bytes);
+  succeed(cudaMemcpyAsync(to, place != nullptr ? place : from, bytes, cudaMemcpyHostToDevice, card().stream),
+          "copy to the card");
+  if (place == nullptr) finish();
+}
+
+void download_soon(void* to, const void* from, std::size_t bytes) {
+  char* place = staged(bytes);
+  if (place == nullptr) return download(to, from, bytes);
+  succeed(cudaMemcpyAsync(place, from, bytes, cudaMemcpyDeviceToHost, card().stream), "copy from the card");
+  card().soon.push_back({to, place, bytes});
 }
 
 void download(void* to, const void* from, std::size_t bytes) {
@@ -228,8 +249,11 @@ std::vector<Row> profiled() {
 }
 
 void finish() {
-  succeed(cudaStreamSynchronize(card().stream), "end the work on the card");
-  card().staged = 0;
+  Card& own = card();
+  succeed(cudaStreamSynchronize(own.stream), "end the work on the card");
+  for (const Card::Soon& one : own.soon) std::memcpy(one.to, one.from, one.bytes);
+  own.soon.clear();
+  own.staged = 0;
 }
 
 }  // namespace mpm_gpu::card

@@ -279,6 +279,22 @@ void launch(const char* name, int threads, long count, void (*run)(const void*, 
   if (!own.recorded) limit_waiting();
 }
 
+void download_soon(void* to, const void* from, std::size_t bytes) {
+  refuse_in_recording();
+  struct Copy {
+    void* to;
+    const void* from;
+    std::size_t bytes;
+    static void run(const void* copy, long, long) {
+      const Copy& own = *static_cast<const Copy*>(copy);
+      std::memcpy(own.to, own.from, own.bytes);
+    }
+  };
+  const Copy copy{to, from, bytes};
+  stream().waiting.add({"gpu: copies", 1, 1, &Copy::run}, {{&copy, sizeof(copy)}});
+  limit_waiting();
+}
+
 Recording::~Recording() {
   if (work_ == nullptr) return;
   finish();  // it may wait to be done

@@ -171,7 +171,7 @@ void NearBodies<T>::act(mpm::Hook hook, Executor& run, const Step<T>& step) {
       get_soon(nodes.mass, near.mass);
       get_soon(nodes.momentum, near.momentum);
       download_particles(run, step);
-      card::finish();  // where there are none, that has not waited
+      card::finish();  // that has not waited if there are none
       find_velocities();
       contact_.act(hook);
       break;

@@ -5,21 +5,16 @@
 #include <random>
 #include <vector>
 
+#include "gpu_buffers.hpp"
 #include "mpm_gpu/cells.hpp"
 
 namespace gpu_cells_test {
 
+using gpu_buffers::there;
 using mpm_gpu::Buffer;
 using mpm_gpu::Executor;
 using mpm_gpu::Visits;
 
-template <class T>
-Buffer<T> there(const std::vector<T>& here) {
-  Buffer<T> buffer;
-  buffer.fit(static_cast<long>(here.size()));
-  buffer.upload(here);
-  return buffer;
-}
 template <class T>
 std::vector<T> here(const T* there, long count) {
   std::vector<T> numbers(static_cast<std::size_t>(count));

@@ -1,11 +1,13 @@
 # Makes the tests and the benchmarks over the library mpm_gpu_cuda. Target gpu_folder puts all, with the libraries and the shipped
 # scenes that they need, into the folder gpu/ of the build, for a machine with a card (scripts/test_gpu).
 
-# The test of the executor has kernels of its own.
+# The tests of the executor have kernels of their own.
 set(card_test_objects)
-mpm_compile_for_card(card_test_objects test/gpu/device/cells_test.cu -ffp-contract=off)
+foreach(name cells recording)
+  mpm_compile_for_card(card_test_objects test/gpu/device/${name}_test.cu -ffp-contract=off)
+endforeach()
 file(GLOB card_tests CONFIGURE_DEPENDS test/gpu/*_test.cpp)
-list(FILTER card_tests EXCLUDE REGEX gpu_cells_test)
+list(FILTER card_tests EXCLUDE REGEX "gpu_(cells|recording)_test")
 add_executable(gpu_tests_cuda EXCLUDE_FROM_ALL ${card_tests} ${card_test_objects})
 set_source_files_properties(${card_test_objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 target_link_libraries(gpu_tests_cuda PRIVATE mpm_gpu_cuda test_pages test_main mpm_options)

@@ -1,8 +1,8 @@
 // Steps a second of an elastic block and of a block of soil, whose cells share a mean stress, that fall on a floor, by
 // number of particles and precision. Beside them the solver on all cores of the same machine, and the memory a
-// particle. On a card also the time of each kernel, and how much of a step the card would take to read and write all
-// numbers of the particles once, at the speed of its own copies. gpu_benchmark [PARTICLES...]: 64000, 1000000 and
-// 4000000 where none is given.
+// particle. On a card also the time of each kernel, in steps that are waited for, and how much of a step the card would
+// take to read and write all numbers of the particles once, at the speed of its own copies. gpu_benchmark
+// [PARTICLES...]: 64000, 1000000 and 4000000 where none is given.
 #include <fmt/core.h>
 
 #include <chrono>

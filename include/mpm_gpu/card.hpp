@@ -50,7 +50,8 @@ Recording end_recording();
 /// Drops what has been recorded since, after an error.
 void drop_recording() noexcept;
 bool is_recording();
-/// In a recording: work from here to the end is done if the number there is not zero at that time. Not within another.
+/// In a recording: work from here to the end is done if the number there is not zero at that time. Conditions are not
+/// nested.
 void begin_when(const std::uint32_t* number);
 void end_when();
 /// Hands out what was recorded.
@@ -82,8 +83,8 @@ struct Row {
   long launches = 0;
   double seconds = 0.0;
 };
-/// Begins or ends a profile: each launch is waited for, so that the whole takes longer than without; of what is
-/// replayed there is one row.
+/// Begins or ends a profile: each launch is waited for, so that the whole takes longer than without, and nothing can be
+/// recorded.
 void profile(bool on);
 /// Rows of the profile since it began, by name.
 std::vector<Row> profiled();

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <type_traits>
 
 #include "mpm_gpu/buffer.hpp"
@@ -57,6 +56,10 @@ class Launches {
  public:
   /// The card has threads of its own: the number is for the processor.
   explicit Launches(Visits visits = Visits::forwards, int /*threads*/ = 1) : visits_(visits) {}
+  /// A copy has room of its own, since recordings of another run keep the address of theirs.
+  Launches(const Launches& other) : visits_(other.visits_) {}
+  Launches& operator=(const Launches&) = delete;
+  ~Launches() = default;
 
   /// kernel(i) for i from 0 to count - 1. `name`: of its row in card::profiled().
   template <class Kernel>
@@ -93,24 +96,24 @@ class Launches {
 
   /// to[i] = sum of from[0 … i - 1]. The two may be one array.
   void exclusive_scan(const std::uint32_t* from, std::uint32_t* to, long count) {
-    card::exclusive_scan(room_->data(), room_->bytes(), from, to, count);
+    card::exclusive_scan(room_.data(), room_.bytes(), from, to, count);
   }
   /// Sorts keys below `limit`, and the values with them; of equal keys the order stays. Uses the other arrays as room.
   void stable_sort(std::uint64_t* keys, std::uint32_t* values, std::uint64_t* other_keys, std::uint32_t* other_values,
                    long count, std::uint64_t limit) {
-    card::stable_sort(room_->data(), room_->bytes(), keys, values, other_keys, other_values, count, limit);
+    card::stable_sort(room_.data(), room_.bytes(), keys, values, other_keys, other_values, count, limit);
   }
   /// Makes room for scans and sorts of so many numbers; between steps only.
   void reserve(long count) {
     const std::size_t scan = card::scan_room(count), sort = card::sort_room(count);
-    room_->fit(static_cast<long>(scan < sort ? sort : scan));
+    room_.fit(static_cast<long>(scan < sort ? sort : scan));
   }
   /// @throws GpuError saying how many would fit, where so many particles of so many bytes do not
   static void require(long particles, std::size_t bytes_of_each) { card::require(particles, bytes_of_each); }
 
  private:
   Visits visits_;
-  std::shared_ptr<Buffer<std::uint8_t>> room_ = std::make_shared<Buffer<std::uint8_t>>();
+  Buffer<std::uint8_t> room_;
 };
 
 }  // namespace mpm_gpu

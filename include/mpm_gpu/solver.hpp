@@ -14,11 +14,12 @@
 // Implicit: momentum, the velocity with gravity and loads alone, the stage that solves the step (implicit_soil.hpp),
 // move. Stages that a scene needs beside these (stage.hpp) act between the passes.
 //
-// Where a scene needs nothing of the host in a step, a step is recorded and replayed (course.hpp), and the host waits
-// when it looks; else it waits for the checks of each step. The bits are the same.
+// Where a scene needs nothing of the host in a step, a step is recorded and replayed (replayed_steps.hpp), and the host
+// waits when it looks; else it waits for the checks of each step. The bits are the same.
 //
-// Nothing is allocated in a step after make_room(), which is called between sync periods, but for lists of the nodes
-// near rigid bodies and of those that moving regions hold, where they outgrow their room.
+// Nothing is allocated in a step after make_room(), which is called between sync periods, but for what is recorded
+// anew, and for lists of the nodes near rigid bodies and of those that moving regions hold, where they outgrow their
+// room.
 #pragma once
 
 #include <array>
@@ -27,11 +28,11 @@
 #include <vector>
 
 #include "mpm_gpu/cells.hpp"
-#include "mpm_gpu/course.hpp"
 #include "mpm_gpu/holds.hpp"
 #include "mpm_gpu/impulses.hpp"
 #include "mpm_gpu/passes.hpp"
 #include "mpm_gpu/put_around.hpp"
+#include "mpm_gpu/replayed_steps.hpp"
 #include "mpm_gpu/stage.hpp"
 
 namespace mpm_gpu {
@@ -119,8 +120,11 @@ class Solver {
   PutAround& put_around() { return around_; }
   /// Forgets by how many lengths of periodic axes particles were put around.
   void clear_turns() { around_.clear_turns(run_); }
-  /// Particles have been moved between two steps: they are sorted before the next one.
-  void sort_next() { must_sort_ = true; }
+  /// Particles, or what walls hold, have been changed between two steps: sorts before the next one.
+  void sort_next() {
+    must_sort_ = true;
+    recorded_dt_ = 0.0;
+  }
   /// Walls will act once more in a step, after a stage that moves their nodes.
   void let_walls_act_again();
   /// The particle of a set that crosses cells the fastest, and its place along the grid's axes [m]. `cell` [m].
@@ -231,9 +235,10 @@ class Solver {
   Buffer<Impulses> impulses_there_;  ///< those of the steps since the last call of impulses()
   bool counted_ = false;             ///< there was such a step
   std::vector<std::unique_ptr<Stage<T>>> stages_;
-  bool may_replay_ = true, has_replayed_ = false;  ///< the last step was replayed
-  bool looked_ = true;                             ///< no step has been replayed since the last look
-  Course course_;
+  bool may_replay_ = true;
+  bool has_replayed_ = false;  ///< the last step was replayed
+  bool looked_ = true;         ///< no step has been replayed since the last look
+  ReplayedSteps replayed_;
   card::Recording recording_;
   double recorded_dt_ = 0.0;      ///< step that is recorded [s]
   long recorded_generation_ = 0;  ///< generation of the table of cells as it was recorded

@@ -66,7 +66,10 @@ class RunDevice final : public mpm::Device {
     return nodes;
   }
   void hold(int face, const mpm::HeldNodes& nodes) override {
-    told([&] { hold_nodes(run().solver().holds(), run().solver().grid(), layout_, face, nodes); });
+    told([&] {
+      hold_nodes(run().solver().holds(), run().solver().grid(), layout_, face, nodes);
+      run().solver().sort_next();
+    });
   }
   Vec3 take_carried() override { return in_world(run().solver().put_around().take_carried()); }
   void tell_modules() override {

@@ -154,12 +154,12 @@ double least_mass(const std::vector<ParticleSet>& sets) {
   return 1e-30 * least;  // as the solver has it
 }
 
-/// About what a particle takes [bytes]: its numbers, those of Solver beside them, and 200 for keys, the table and nodes
+/// About what a particle takes [bytes]: its numbers, those of Solver beside them, and 210 for keys, the table and nodes
 /// of a compact body in three dimensions, of which twice what is in use is reserved.
 template <class T>
 std::size_t bytes_of_particle(const ParticleSet& set) {
   const std::size_t axes = set.x.size(), of_solver = axes * axes + 1;
-  return (axes + 1) * sizeof(double) + 3 * sizeof(std::uint32_t) + 1 + 200 +
+  return (axes + 1) * sizeof(double) + 3 * sizeof(std::uint32_t) + 1 + 210 +
          (set.v.size() + set.f.size() + set.tau.size() + set.history.size() + set.affine.size() + set.masses.size() +
           set.surface.size() + of_solver) *
              sizeof(T);

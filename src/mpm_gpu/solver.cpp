@@ -129,7 +129,7 @@ void Solver<T>::sort(bool stay) {
     fault[i] = 0;  // each leads to a sort or ends the run
   });
   if (stay) {
-    course_.sorted(run_, cells_.counts(), cells_.owners_room(), cells_.blocks_room());
+    replayed_.sorted(run_, cells_.counts(), cells_.owners_room(), cells_.blocks_room());
   } else {
     ++sorts_;
   }
@@ -191,7 +191,7 @@ void Solver<T>::step(double dt, double start) {
   if (has_replayed_ != replays()) {
     look();
     has_replayed_ = !has_replayed_;
-    if (has_replayed_) course_.begin(run_);
+    if (has_replayed_) replayed_.begin(run_);
     recorded_dt_ = 0.0;
     must_sort_ = true;  // the table is another
   }
@@ -249,14 +249,14 @@ void Solver<T>::replay(double dt) {
   must_sort_ = false;
   if (dt != recorded_dt_ || cells_.generation() != recorded_generation_) {
     recording_ = run_.record([&] {
-      course_.where_to_sort(run_, [&] { sort(true); });
-      course_.where_it_goes_on(run_, [&] {
+      replayed_.where_to_sort(run_, [&] { sort(true); });
+      replayed_.where_it_goes_on(run_, [&] {
         pass(dt, 0.0, true);
         const std::uint8_t* fault = fault_.data();
         run_.reduce_there(
             "gpu: checks", count_, [=](long i) { return Faults::of(fault[i], i); }, of_particles_);
-        course_.stepped(run_, of_particles_.data(), store_.id.data(),
-                        {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()});
+        replayed_.stepped(run_, of_particles_.data(), store_.id.data(),
+                          {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()});
       });
     });
     recorded_dt_ = dt;
@@ -270,11 +270,11 @@ void Solver<T>::replay(double dt) {
 template <class T>
 void Solver<T>::look() {
   if (looked_) return;
-  const Course::Numbers numbers = course_.look(run_);
+  const ReplayedSteps::Numbers numbers = replayed_.look(run_);
   looked_ = true;
   steps_ += numbers.steps;
   sorts_ += numbers.sorts;
-  if (numbers.failure == Course::kNoRoom) cells_.require_room(numbers.owners, numbers.blocks);
+  if (numbers.failure == ReplayedSteps::kNoRoom) cells_.require_room(numbers.owners, numbers.blocks);
   if (numbers.failure != 0) fail(numbers.failure, numbers.id, numbers.place, steps_ + 1);
 }
 

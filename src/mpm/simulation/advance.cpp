@@ -174,8 +174,8 @@ void Simulation::State::run_period() {
     since_look = 0;
     seen = now;
   }
+  if (device) tell_modules();  // before the clock goes on, since this may find that a step has failed
   time += definition.time.sync;
-  if (device) tell_modules();
   timed("modules: sync point", [&] {
     for (Module* module : modules.list()) module->at_sync(time);
   });

@@ -27,7 +27,7 @@ function(mpm_compile_for_card objects source)
 endfunction()
 
 set(card_objects)
-foreach(name cells course holds home_blocks near_copies put_around solver solver_sums totals)
+foreach(name cells replayed_steps holds home_blocks near_copies put_around solver solver_sums totals)
   mpm_compile_for_card(card_objects src/mpm_gpu/device/${name}.cu -ffp-contract=off)
 endforeach()
 foreach(name passes laws soil)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 
+#include "mpm_gpu/buffer.hpp"
 #include "mpm_gpu/device/card_calls.hpp"
 #include "mpm_gpu/error.hpp"
 
@@ -27,7 +28,7 @@ struct Card {
     const void* from;
     std::size_t bytes;
   };
-  std::vector<Soon> soon;
+  std::vector<Soon> soon, arrived;
   char* staging = nullptr;  ///< memory of the host that the card reads and writes by itself
   std::size_t staged = 0;   ///< bytes there that may be in use
   bool profile = false;
@@ -136,6 +137,7 @@ void release(void* memory) noexcept {
 
 /// Takes so many bytes of the staging memory, for which it may have to wait; null for more than there is.
 static char* staged(std::size_t bytes) {
+  if (is_recording()) throw GpuError("gpu: a recording cannot copy");  // it would copy whatever lies there later
   Card& own = card();
   if (bytes > kStaging) return nullptr;
   if (own.staged + bytes > kStaging) finish();
@@ -182,17 +184,17 @@ double bytes_per_second() {
   constexpr std::size_t kBytes = std::size_t{1} << 29;
   constexpr int kCopies = 10;
   Card& own = card();
-  void *from = allocate(kBytes), *to = allocate(kBytes);
+  Buffer<unsigned char> from, to;
+  for (Buffer<unsigned char>* buffer : {&from, &to}) buffer->fit(kBytes);
   float milliseconds = 0.0F;
   for (int i = 0; i <= kCopies; ++i) {
     if (i == 1) succeed(cudaEventRecord(own.begin, own.stream), "time a copy");  // after the first
-    succeed(cudaMemcpyAsync(to, from, kBytes, cudaMemcpyDeviceToDevice, own.stream), "copy memory of the card");
+    succeed(cudaMemcpyAsync(to.data(), from.data(), kBytes, cudaMemcpyDeviceToDevice, own.stream),
+            "copy memory of the card");
   }
   succeed(cudaEventRecord(own.end, own.stream), "time a copy");
   succeed(cudaEventSynchronize(own.end), "time a copy");
   succeed(cudaEventElapsedTime(&milliseconds, own.begin, own.end), "time a copy");
-  release(from);
-  release(to);
   return 2.0 * kBytes * kCopies / (1e-3 * static_cast<double>(milliseconds));
 }
 
@@ -250,9 +252,10 @@ std::vector<Row> profiled() {
 
 void finish() {
   Card& own = card();
+  own.arrived.swap(own.soon);
+  own.soon.clear();  // also where the card is lost
   succeed(cudaStreamSynchronize(own.stream), "end the work on the card");
-  for (const Card::Soon& one : own.soon) std::memcpy(one.to, one.from, one.bytes);
-  own.soon.clear();
+  for (const Card::Soon& one : own.arrived) std::memcpy(one.to, one.from, one.bytes);
   own.staged = 0;
 }
 

@@ -6,6 +6,7 @@
 
 #include "mpm_gpu/card.hpp"
 #include "mpm_gpu/device/card_calls.hpp"
+#include "mpm_gpu/error.hpp"
 
 namespace mpm_gpu::card {
 namespace {
@@ -120,6 +121,7 @@ void drop_recording() noexcept {
 void begin_when(const std::uint32_t* number) {
 #if CUDART_VERSION >= kFirstWithConditions
   Recorder& own = recorder();
+  if (own.in_body) throw GpuError("gpu: conditions are not nested");
   cudaGraphConditionalHandle handle{};
   succeed(cudaGraphConditionalHandleCreate(&handle, Captured(own.whole).graph, 0, cudaGraphCondAssignDefault),
           "record a condition");

@@ -46,7 +46,7 @@ class Region {
     free_[0] = kReserved - kPage;
     madvise(begin_, kReserved - kPage, MADV_HUGEPAGE);  // without such pages opening takes longer
   }
-  bool contains(const void* address) const { return address >= begin_ && address < begin_ + kReserved; }
+  bool contains(const void* address) const { return address >= begin_ && address < begin_ + kReserved - kPage; }
   void let(bool open) {
     if (open == open_) return;
     const int rights = open ? PROT_READ | PROT_WRITE : PROT_NONE;
@@ -232,7 +232,7 @@ void* allocate(std::size_t bytes) {
 }
 
 void release(void* memory) noexcept {
-  finish();
+  if (!is_recording()) finish();
   stream().region.give_back(memory);
 }
 
@@ -297,14 +297,14 @@ void download_soon(void* to, const void* from, std::size_t bytes) {
 
 Recording::~Recording() {
   if (work_ == nullptr) return;
-  finish();  // it may wait to be done
+  if (!is_recording()) finish();  // it may wait to be done
   delete static_cast<Work*>(work_);
 }
 
 bool can_record() { return true; }
 bool is_recording() { return stream().recorded != nullptr; }
 void begin_recording() {
-  refuse_in_recording();
+  finish();  // so that memory can be given back meanwhile
   stream().recorded = std::make_unique<Work>();
 }
 void drop_recording() noexcept {
@@ -315,6 +315,7 @@ Recording end_recording() { return Recording(stream().recorded.release()); }
 
 void begin_when(const std::uint32_t* number) {
   Stream& own = stream();
+  if (own.condition != 0) throw std::logic_error("conditions are not nested");
   Piece condition;
   condition.number = number;
   own.recorded->pieces.push_back(condition);

@@ -1,8 +1,8 @@
-// The kernels and launches of course.cpp, for a card.
+// The kernels and launches of replayed_steps.cpp, for a card.
 #include "mpm_gpu/device/host_headers.hpp"
 
 #pragma clang force_cuda_host_device begin
 #include "mpm_gpu/views.hpp"
 #pragma clang force_cuda_host_device end
 
-#include "../course.cpp"
+#include "../replayed_steps.cpp"

@@ -9,7 +9,7 @@
 
 namespace mpm_gpu {
 
-class Course {
+class ReplayedSteps {
  public:
   /// Record of what has happened since the last look.
   struct Numbers {

@@ -1,8 +1,8 @@
-#include "mpm_gpu/course.hpp"
+#include "mpm_gpu/replayed_steps.hpp"
 
 namespace mpm_gpu {
 
-void Course::begin(Executor& run) {
+void ReplayedSteps::begin(Executor& run) {
   flags_.fit(2);
   numbers_.fit(1);
   std::uint32_t* flags = flags_.data();
@@ -14,7 +14,7 @@ void Course::begin(Executor& run) {
   });
 }
 
-void Course::sorted(Executor& run, const std::uint32_t* counts, long owners_room, long blocks_room) {
+void ReplayedSteps::sorted(Executor& run, const std::uint32_t* counts, long owners_room, long blocks_room) {
   std::uint32_t* flags = flags_.data();
   Numbers* numbers = numbers_.data();
   run.for_each("gpu: checks", 1, [=](long) {
@@ -28,8 +28,8 @@ void Course::sorted(Executor& run, const std::uint32_t* counts, long owners_room
   });
 }
 
-void Course::stepped(Executor& run, const Faults* faults, const std::uint32_t* id,
-                     const std::array<const double*, 3>& places) {
+void ReplayedSteps::stepped(Executor& run, const Faults* faults, const std::uint32_t* id,
+                            const std::array<const double*, 3>& places) {
   struct Kernel {
     const Faults* faults;
     const std::uint32_t* id;
@@ -54,7 +54,7 @@ void Course::stepped(Executor& run, const Faults* faults, const std::uint32_t* i
   run.for_each("gpu: checks", 1, Kernel{faults, id, {places[0], places[1], places[2]}, flags_.data(), numbers_.data()});
 }
 
-Course::Numbers Course::look(Executor& run) {
+ReplayedSteps::Numbers ReplayedSteps::look(Executor& run) {
   const Numbers now = numbers_.get(0);
   Numbers* numbers = numbers_.data();
   run.for_each("gpu: checks", 1, [=](long) { numbers->sorts = numbers->steps = 0; });

@@ -33,11 +33,12 @@ class Mixture final : public Stage<T> {
     step.settings.part = 1.0 - transfer_.flip;
     step.nodes.work = work_.data();
   }
-  void end_step(Executor& run, const Step<T>& step, double, const Taken& taken) override {
-    slip_ += taken.slip;
-    if (step.settings.increments == 0) return;
+  void act(mpm::Hook hook, Executor& run, const Step<T>& step) override {
+    if (hook != mpm::Hook::grid_advanced || step.settings.increments == 0) return;
     given_back_.add(run, "gpu: accounts", work_.data(), step.nodes.nodes, 1);
   }
+  bool repeats() const override { return transfer_.every == 1; }
+  void count(const Taken& taken) override { slip_ += taken.slip; }
   void tell_modules() override {
     const double given_back = transfer_.mixes() ? given_back_.take().of[0] : 0.0;
     if (mechanics_ != nullptr) mechanics_->count(slip_ - given_back, 0.0);

@@ -5,6 +5,7 @@
 
 #include "mpm_gpu/executor.hpp"
 #include "mpm_gpu/faults.hpp"
+#include "mpm_gpu/taken.hpp"
 #include "mpm_gpu/views.hpp"
 
 namespace mpm_gpu {
@@ -13,6 +14,7 @@ class ReplayedSteps {
  public:
   /// Record of what has happened since the last look.
   struct Numbers {
+    Taken taken;                   ///< losses of particles in the whole steps, if they are counted
     std::uint32_t sorts;           ///< number of sorts
     std::uint32_t steps;           ///< number of whole steps, without the one that has failed
     std::uint32_t failure;         ///< kInverted or kOutside of a particle; kNoRoom; 0: none
@@ -35,8 +37,9 @@ class ReplayedSteps {
   }
   /// After a sort. `counts`, and the room for both: of the table of cells.
   void sorted(Executor& run, const std::uint32_t* counts, long owners_room, long blocks_room);
-  /// After a step. `faults`: sum over the particles; `x`: their places.
-  void stepped(Executor& run, const Faults* faults, const std::uint32_t* id, const std::array<const double*, 3>& x);
+  /// After a step. `faults`, `taken`: sums over the particles, `taken` null if nothing is counted; `x`: their places.
+  void stepped(Executor& run, const Faults* faults, const Taken* taken, const std::uint32_t* id,
+               const std::array<const double*, 3>& x);
   /// Waits for all steps. Afterwards it counts from zero.
   Numbers look(Executor& run);
 

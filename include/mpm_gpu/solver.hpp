@@ -168,6 +168,8 @@ class Solver {
   void filter(Step<T> now);
   /// Returns what is kept of what particles lose in their update in this step.
   Counting counting(const StepSettings& settings) const;
+  /// Sums the faults of the particles and, if it is counted, what they lose; there.
+  void sum_checks(Counting counted);
   void check(const Step<T>& now, double start);
   template <int Dim>
   void account(double dt);

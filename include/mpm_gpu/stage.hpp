@@ -28,7 +28,12 @@ class Stage {
   /// Asked when particles are outside the grid: true when it has put them all back. @throws mpm::ModuleError
   virtual bool put_back(Executor&, const Step<T>&) { return false; }
   /// The step is done, and its sums are known.
-  virtual void end_step(Executor&, const Step<T>&, double /*start*/, const Taken&) {}
+  virtual void end_step(Executor&, const Step<T>&, double /*start*/, const Taken& taken) { count(taken); }
+  /// True if it hands out the same work in all steps of one length, so that a step may be recorded and replayed. Then
+  /// it begins and acts in the step that is recorded, and count() stands in the place of end_step().
+  virtual bool repeats() const { return false; }
+  /// Counts what particles have lost in one or more steps.
+  virtual void count(const Taken&) {}
   /// Books with modules of the solver what was counted since the last call.
   virtual void tell_modules() {}
   virtual std::size_t bytes() const { return 0; }

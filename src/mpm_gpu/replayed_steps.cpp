@@ -28,10 +28,11 @@ void ReplayedSteps::sorted(Executor& run, const std::uint32_t* counts, long owne
   });
 }
 
-void ReplayedSteps::stepped(Executor& run, const Faults* faults, const std::uint32_t* id,
+void ReplayedSteps::stepped(Executor& run, const Faults* faults, const Taken* taken, const std::uint32_t* id,
                             const std::array<const double*, 3>& places) {
   struct Kernel {
     const Faults* faults;
+    const Taken* taken;
     const std::uint32_t* id;
     const double* x[3];
     std::uint32_t* flags;
@@ -41,6 +42,7 @@ void ReplayedSteps::stepped(Executor& run, const Faults* faults, const std::uint
       const bool inverted = faults->inverted != Faults::kNone;
       if (!inverted && faults->outside == Faults::kNone) {
         ++numbers->steps;
+        if (taken != nullptr) numbers->taken += *taken;
         return;
       }
       // A particle outside is in no cell: nothing may be sorted or gathered any more.
@@ -51,13 +53,17 @@ void ReplayedSteps::stepped(Executor& run, const Faults* faults, const std::uint
       for (int k = 0; k < 3; ++k) numbers->place[k] = x[k] == nullptr ? 0.0 : x[k][p];
     }
   };
-  run.for_each("gpu: checks", 1, Kernel{faults, id, {places[0], places[1], places[2]}, flags_.data(), numbers_.data()});
+  run.for_each("gpu: checks", 1,
+               Kernel{faults, taken, id, {places[0], places[1], places[2]}, flags_.data(), numbers_.data()});
 }
 
 ReplayedSteps::Numbers ReplayedSteps::look(Executor& run) {
   const Numbers now = numbers_.get(0);
   Numbers* numbers = numbers_.data();
-  run.for_each("gpu: checks", 1, [=](long) { numbers->sorts = numbers->steps = 0; });
+  run.for_each("gpu: checks", 1, [=](long) {
+    numbers->sorts = numbers->steps = 0;
+    numbers->taken = Taken{};
+  });
   return now;
 }
 

@@ -239,7 +239,8 @@ Step<T> Solver<T>::pass(double dt, double start, bool stay) {
 
 template <class T>
 bool Solver<T>::replays() const {
-  return may_replay_ && stages_.empty() && method_.counting == Counting::nothing && !around_.any() && count_ > 0 &&
+  const auto repeats = [](const auto& stage) { return stage->repeats(); };
+  return may_replay_ && std::all_of(stages_.begin(), stages_.end(), repeats) && !around_.any() && count_ > 0 &&
          card::can_record();
 }
 
@@ -251,11 +252,11 @@ void Solver<T>::replay(double dt) {
     recording_ = run_.record([&] {
       replayed_.where_to_sort(run_, [&] { sort(true); });
       replayed_.where_it_goes_on(run_, [&] {
-        pass(dt, 0.0, true);
-        const std::uint8_t* fault = fault_.data();
-        run_.reduce_there(
-            "gpu: checks", count_, [=](long i) { return Faults::of(fault[i], i); }, of_particles_);
-        replayed_.stepped(run_, of_particles_.data(), store_.id.data(),
+        const Counting counted = counting(pass(dt, 0.0, true).settings);
+        sum_checks(counted);
+        const bool counts = counted != Counting::nothing;
+        replayed_.stepped(run_, counts ? &of_counted_.data()->faults : of_particles_.data(),
+                          counts ? &of_counted_.data()->taken : nullptr, store_.id.data(),
                           {store_.x[0].data(), store_.x[1].data(), store_.x[2].data()});
       });
     });
@@ -274,6 +275,7 @@ void Solver<T>::look() {
   looked_ = true;
   steps_ += numbers.steps;
   sorts_ += numbers.sorts;
+  for (auto& stage : stages_) stage->count(numbers.taken);
   if (numbers.failure == ReplayedSteps::kNoRoom) cells_.require_room(numbers.owners, numbers.blocks);
   if (numbers.failure != 0) fail(numbers.failure, numbers.id, numbers.place, steps_ + 1);
 }
@@ -356,24 +358,36 @@ Impulses& Solver<T>::impulses() {
 }
 
 template <class T>
-void Solver<T>::check(const Step<T>& now, double start) {
+void Solver<T>::sum_checks(Counting counted) {
   const std::uint8_t* fault = fault_.data();
   const auto faults_of = [=](long i) { return Faults::of(fault[i], i); };
+  if (counted == Counting::nothing) {
+    run_.reduce_there("gpu: checks", count_, faults_of, of_particles_);
+    return;
+  }
+  const double* taken = taken_.data();
+  const int dim = dim_;
+  const long count = count_;
+  run_.reduce_there(
+      "gpu: checks", count,
+      [=](long i) {
+        return OfCounted{faults_of(i), taken_by(taken, counted, dim, count, i)};
+      },
+      of_counted_);
+}
+
+template <class T>
+void Solver<T>::check(const Step<T>& now, double start) {
   OfCounted sums;
   Faults& all = sums.faults;
   const Counting counted = counting(now.settings);
-  if (counted == Counting::nothing) {
-    all = run_.reduce<Faults>("gpu: checks", count_, faults_of, of_particles_);
-  } else {
-    const double* taken = taken_.data();
-    const int dim = dim_;
-    const long count = count_;
-    sums = run_.reduce<OfCounted>(
-        "gpu: checks", count,
-        [=](long i) {
-          return OfCounted{faults_of(i), taken_by(taken, counted, dim, count, i)};
-        },
-        of_counted_);
+  if (count_ > 0) {
+    sum_checks(counted);
+    if (counted == Counting::nothing) {
+      all = of_particles_.get(0);
+    } else {
+      sums = of_counted_.get(0);
+    }
   }
   must_sort_ = all.left;
   const auto fail_by = [&](std::uint32_t fault, std::uint32_t p) {

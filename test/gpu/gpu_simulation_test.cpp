@@ -174,6 +174,9 @@ TEST(GpuSimulation, FailsAsARunDoes) {
     EXPECT_NE(std::string(error.what()).find("particle "), std::string::npos) << error.what();
   }
   EXPECT_THROW(simulation.advance(), mpm::PhysicsError);
+  Simulation here(d, options(false));
+  EXPECT_THROW(advance(here, 200), mpm::PhysicsError);
+  EXPECT_EQ(simulation.time(), here.time());  // that of the sync point before, wherever in its period the step failed
   const std::vector<double> z = field(simulation, "z");
   const auto falls = [](double height) { return height < 0.0; };
   EXPECT_TRUE(std::any_of(z.begin(), z.end(), falls));  // the state of the failed step can be read

@@ -68,17 +68,12 @@ class Executor : public Backend {
     return card::end_recording();
   }
   void replay(const card::Recording& recording) { card::replay(recording); }
-  /// Hands out that work if the number there is not zero: in a recording whenever it is replayed, else now, which waits
-  /// for the number.
+  /// In a recording: work that is done, whenever it is replayed, if the number there is not zero at that time.
   template <class Work>
   void when(const Buffer<std::uint32_t>& number, long at, const Work& work) {
-    if (card::is_recording()) {
-      card::begin_when(number.data() + at);
-      work();
-      card::end_when();
-    } else if (number.get(at) != 0) {
-      work();
-    }
+    card::begin_when(number.data() + at);
+    work();
+    card::end_when();
   }
   /// Gives `values` the first so many of `others`, which has as much room: by a swap or, where addresses have to stay
   /// as they are, by a copy.

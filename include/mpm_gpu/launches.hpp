@@ -37,9 +37,7 @@ __attribute__((global)) void one_member(Kernel kernel, Visits visits, long teams
   const long i = static_cast<long>(__nvvm_read_ptx_sreg_ctaid_x()) * __nvvm_read_ptx_sreg_ntid_x() + thread;
   const long of = i / Members;
   if (of >= teams) return;
-  const long team = visits == Visits::forwards    ? of
-                    : visits == Visits::backwards ? teams - 1 - of
-                                                  : of * stride % teams;
+  const long team = visited(visits, of, teams, stride);
   const unsigned own = ((1U << Members) - 1U) << (thread % 32U / Members * Members);
   for (int turn = 0; turn < turns; ++turn) {
     kernel(team, turn, static_cast<int>(i % Members));

@@ -139,6 +139,17 @@ struct Upload {
     std::memcpy(own.to, &own + 1, own.bytes);
   }
 };
+/// Copy of bytes that are still there when it is made.
+struct Copy {
+  void* to;
+  const void* from;
+  std::size_t bytes;
+
+  static void run(const void* copy, long, long) {
+    const Copy& own = *static_cast<const Copy*>(copy);
+    std::memcpy(own.to, own.from, own.bytes);
+  }
+};
 
 struct Stream {
   Region region;
@@ -237,25 +248,23 @@ void release(void* memory) noexcept {
 }
 
 void upload(void* to, const void* from, std::size_t bytes) {
+  if (bytes > kMostStaged) return download(to, from, bytes);  // the same copy, which is waited for
   refuse_in_recording();
-  Stream& own = stream();
-  if (bytes > kMostStaged) {
-    finish();
-    own.region.let(true);
-    std::memcpy(to, from, bytes);
-    own.region.let(false);
-    return;
-  }
   const Upload upload{to, bytes};
-  own.waiting.add({"gpu: copies", 1, 1, &Upload::run}, {{&upload, sizeof(upload)}, {from, bytes}});
+  stream().waiting.add({"gpu: copies", 1, 1, &Upload::run}, {{&upload, sizeof(upload)}, {from, bytes}});
+  limit_waiting();
+}
+
+void download_soon(void* to, const void* from, std::size_t bytes) {
+  refuse_in_recording();
+  const Copy copy{to, from, bytes};
+  stream().waiting.add({"gpu: copies", 1, 1, &Copy::run}, {{&copy, sizeof(copy)}});
   limit_waiting();
 }
 
 void download(void* to, const void* from, std::size_t bytes) {
+  download_soon(to, from, bytes);
   finish();
-  stream().region.let(true);
-  std::memcpy(to, from, bytes);
-  stream().region.let(false);
 }
 
 void finish() {
@@ -277,22 +286,6 @@ void launch(const char* name, int threads, long count, void (*run)(const void*, 
   Work& to = own.recorded ? *own.recorded : own.waiting;
   to.add({name, threads, count, run}, {{kernel, bytes}});
   if (!own.recorded) limit_waiting();
-}
-
-void download_soon(void* to, const void* from, std::size_t bytes) {
-  refuse_in_recording();
-  struct Copy {
-    void* to;
-    const void* from;
-    std::size_t bytes;
-    static void run(const void* copy, long, long) {
-      const Copy& own = *static_cast<const Copy*>(copy);
-      std::memcpy(own.to, own.from, own.bytes);
-    }
-  };
-  const Copy copy{to, from, bytes};
-  stream().waiting.add({"gpu: copies", 1, 1, &Copy::run}, {{&copy, sizeof(copy)}});
-  limit_waiting();
 }
 
 Recording::~Recording() {
